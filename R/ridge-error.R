@@ -45,7 +45,7 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
   covariance <- function(other, smooth) cpp_curvature_covariance(
     mesh_graph(scan), window$coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), margins, target,
-    window$coordinates$vertex[fitted], sigma, other, smooth,
+    window$coordinates$vertex[fitted], sigma, other, c(smooth, attr(known, "direction")),
     kernel_settings(radius, settings$order)
   )
   found <- covariance(other, smooth)
@@ -56,39 +56,49 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
   list(matrix = found$matrix, factor = 1, doubt = noise_doubt(known, found$matrix, covariance))
 }
 
-#' What the doubt about a measured noise does to the covariance of the moments
+#' How the covariance of the moments changes with what was measured of a noise
 #'
 #' @param known Noise as of [noise_setting()].
 #' @param whole Covariance of the moments under it.
 #' @param covariance Function of the independent standard deviation, and of the smooth one with its
 #'   range.
-#' @return List: `parts`, the covariances of the moments by the independent and the smooth part;
-#'   `df`, their degrees of freedom. NULL where the noise is not measured but known.
+#' @param step Step of the derivative by log range.
+#' @return List: `slopes`, the derivatives of the covariance by independent^2, smooth^2 and
+#'   log(range); `spread`, 3 x 3, the covariance of these. NULL where the noise is not measured but
+#'   known.
 #' @noRd
-noise_doubt <- function(known, whole, covariance) {
-  df <- attr(known, "df")
-  if (is.null(df)) return(NULL)
-  single <- covariance(known[[1]], c(0, 0))$matrix
-  list(parts = list(single, whole - single), df = df)
+noise_doubt <- function(known, whole, covariance, step = 0.05) {
+  spread <- attr(known, "spread")
+  if (is.null(spread)) return(NULL)
+  known <- unname(known[1:3])
+  by_single <- covariance(1, c(0, 0))$matrix
+  slopes <- list(by_single, 0 * whole, 0 * whole)
+  if (known[2] > 0) {
+    by_smooth <- (whole - known[1]^2 * by_single) / known[2]^2
+    wider <- covariance(known[1], c(known[2], known[3] * exp(step)))$matrix
+    slopes <- list(by_single, by_smooth, (wider - whole) / step)
+  }
+  list(slopes = slopes, spread = spread)
 }
 
 #' Variances of linear functions of the moments under a noise, with its factor
 #'
-#' Where the noise was measured, a variance is a sum of two estimates v_i with f_i degrees of
-#' freedom, and has (v_1 + v_2)^2 / (v_1^2 / f_1 + v_2^2 / f_2) itself (Satterthwaite 1946). It is
-#' widened, so that two standard errors hold of Student's distribution with these what they hold of
-#' the normal one.
+#' Where the noise was measured, a variance v is an estimate itself. Its own variance w follows from
+#' that of the measured noise by the delta method, and it counts as one of f = 2 v^2 / w degrees of
+#' freedom (Satterthwaite 1946). It is widened, so that two standard errors hold of Student's
+#' distribution with these what they hold of the normal one.
 #'
 #' @param rows A function a row.
 #' @param noise As of [moment_noise()].
+#' @param fewest Least number of degrees of freedom.
 #' @noRd
-noise_variance <- function(rows, noise) {
+noise_variance <- function(rows, noise, fewest = 3) {
   variance <- noise$factor * linear_variance(rows, noise$matrix)
   if (is.null(noise$doubt)) return(variance)
-  doubt <- Map(function(part, df) linear_variance(rows, part)^2 / df, noise$doubt$parts,
-               noise$doubt$df)
-  df <- variance^2 / Reduce(`+`, doubt)
-  variance * ifelse(variance > 0, stats::qt(stats::pnorm(2), df) / 2, 1)^2
+  slope <- vapply(noise$doubt$slopes, function(by) rowSums((rows %*% by) * rows), variance)
+  df <- 2 * variance^2 / linear_variance(matrix(slope, length(variance)), noise$doubt$spread)
+  wider <- stats::qt(stats::pnorm(2), pmax(df, fewest)) / 2
+  variance * ifelse(variance > 0, wider, 1)^2
 }
 
 #' How much more the strengths scatter about their smooth surface than under independent noise

@@ -27,13 +27,18 @@
 #' @param lags Largest distance at which correlation is measured, in mean edge lengths.
 #' @param rounds,tolerance Greatest number of rounds of the registration. It has converged when no
 #'   point moves by more than `tolerance` times the extent.
+#' @param direction Direction of the scanner's errors in the frame of `first`, three numbers, such
+#'   as its line of sight. On a slope such an error moves the surface by less along its normal, and
+#'   is correlated over a longer way. `NULL`: errors are along the normals.
 #' @return Object of class `scan_noise`, a list:
 #'   * `independent`, `smooth`: standard deviations of the two parts, in the unit of the mesh;
 #'   * `range`: range of the correlation, in the unit of the mesh (0: no smooth part);
 #'   * `sd`: standard deviation of both parts together, in the unit of the mesh;
-#'   * `df`: degrees of freedom of the variances of both parts (no unit). Those of the smooth part
-#'     count the patches of smooth noise that the compared vertices hold. Standard errors under this
-#'     noise are widened for few of them, see [ridge_curve()];
+#'   * `spread`: sampling covariance of the estimates of `independent`^2, `smooth`^2 (unit of the
+#'     mesh to the fourth) and log(`range`), 3 x 3. It is large where the compared vertices hold few
+#'     patches of smooth noise. Standard errors under this noise are widened for it, see
+#'     [ridge_curve()];
+#'   * `direction`: as given, of length 1, or NULL;
 #'   * `covariance`: data frame by `lag` (unit of the mesh): covariance of the distances between the
 #'     scans, and the `fitted` covariance;
 #'   * `points`: number of vertices compared;
@@ -61,7 +66,7 @@
 #' curve$se
 #' @export
 scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, trim = 5, lags = 12,
-                       rounds = 50, tolerance = 1e-6) {
+                       rounds = 50, tolerance = 1e-6, direction = NULL) {
   check_given()
   check_surface(first, "first")
   check_surface(second, "second")
@@ -71,6 +76,7 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
   check_number(lags, "lags", lower = 3)
   rounds <- check_count(rounds, "rounds")
   check_number(tolerance, "tolerance", lower = 0, open = TRUE)
+  direction <- check_direction(direction)
   marks <- list(first$landmarks, second$landmarks)
   near <- if (!is.null(near)) point_matrix(near, "near") else marks[[1]]
   scans <- list(walkable(first), walkable(second))
@@ -80,11 +86,10 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
   both <- if (length(shared) >= 3) lapply(marks, function(x) x[shared, , drop = FALSE])
   laid <- laid_on(scans[[2]], compared, both, trim, rounds, tolerance)
   if (sum(laid$kept) < 100) abort_few_compared(sum(laid$kept), scans[[1]]$id)
-  lagged <- lagged_covariance(
-    compared$xyz[laid$kept, ], laid$distance[laid$kept], compared$edge, lags
-  )
-  left <- left_by_registration(compared$xyz[laid$kept, ], compared$normal[laid$kept, ], lagged,
-                               compared$edge)
+  xyz <- compared$xyz[laid$kept, ]
+  flat <- flattened(xyz, direction)
+  lagged <- lagged_covariance(flat, laid$distance[laid$kept], compared$edge, lags)
+  left <- left_by_registration(xyz, compared$normal[laid$kept, ], lagged, compared$edge, direction)
   fitted <- fitted_noise(lagged, laid$weight, compared$edge, left)
   if (sqrt(lagged$covariance[1]) > compared$edge) {
     crestline_abort(sprintf("the scans lie %.3g apart, more than an edge: they are not registered.",
@@ -94,21 +99,30 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
   }
   structure(c(fitted$noise, list(
               sd = sqrt(fitted$noise$independent^2 + fitted$noise$smooth^2),
-              df = noise_df(fitted$noise, left, sum(laid$kept)),
+              spread = fitted$spread, direction = direction,
               covariance = cbind(lagged, fitted = fitted$values), points = sum(laid$kept),
               converged = laid$converged, rounds = laid$rounds
             )),
             class = "scan_noise")
 }
 
-#' Degrees of freedom of the variances of both parts
-#'
-#' @param left As of [left_by_registration()].
-#' @param points Number of distances.
+#' A unit vector, or NULL
 #' @noRd
-noise_df <- function(noise, left, points) {
-  c(independent = points * attr(left, "share"),
-    smooth = if (noise$smooth > 0) attr(left, "df")(noise$range) else Inf)
+check_direction <- function(direction) {
+  if (is.null(direction)) return(NULL)
+  given <- is.numeric(direction) && length(direction) == 3 && all(is.finite(direction)) &&
+    any(direction != 0)
+  if (given) return(unit_vector(as.numeric(direction)))
+  crestline_abort(sprintf("`direction` is %s.", describe_value(direction)),
+                  "Give the direction of the scanner's errors, three finite numbers, not all 0.",
+                  stage = "arguments")
+}
+
+#' Places seen along a direction: n x 3, as they are without one
+#' @noRd
+flattened <- function(xyz, direction) {
+  if (is.null(direction)) return(xyz)
+  xyz - tcrossprod(xyz %*% direction, direction)
 }
 
 abort_few_compared <- function(count, id) {
@@ -248,13 +262,15 @@ lagged_covariance <- function(xyz, distance, edge, lags, block = 500) {
 #'
 #' @param xyz,normal n x 3, the vertices that were compared.
 #' @param lagged As of [lagged_covariance()].
+#' @param direction Of the errors, or NULL: along the normals. Errors in one direction count by its
+#'   cosine with the normal, and are correlated by their distance seen along it.
 #' @param most Number of vertices that stand for all.
-#' @return Function of a range: for each lag the mean of what is left of the correlation
-#'   exp(-d^2 / (2 range^2)), with the lag 0 first. Attributes: `share`, what is left of independent
-#'   noise; `df`, function of a range: with C what is left, tr(C)^2 / tr(C^2), the degrees of
-#'   freedom of a mean square of such noise (Satterthwaite 1946).
+#' @return List: `whole`, function of a range: the correlation exp(-d^2 / (2 range^2)) of these
+#'   vertices, less what registration takes; `by_lag`, function of such a matrix: its mean at each
+#'   lag, the lag 0 first, NA where no pair has it; `pairs`, the places of each lag's pairs in it;
+#'   `single`, what is left of independent noise, as `whole`; `share`, its mean variance.
 #' @noRd
-left_by_registration <- function(xyz, normal, lagged, edge, most = 400) {
+left_by_registration <- function(xyz, normal, lagged, edge, direction = NULL, most = 400) {
   about <- sweep(xyz, 2, colMeans(xyz))
   design <- cbind(cross_rows(about, normal) / sqrt(mean(rowSums(about^2))), normal)
   rows <- order(xyz[, 1], xyz[, 2], xyz[, 3])
@@ -262,26 +278,25 @@ left_by_registration <- function(xyz, normal, lagged, edge, most = 400) {
   parts <- svd(design[rows, ], nv = 0)
   rank <- sum(parts$d > 1e-8 * parts$d[1])
   moves <- parts$u[, seq_len(rank), drop = FALSE]
-  apart <- as.matrix(stats::dist(xyz[rows, ]))
+  apart <- as.matrix(stats::dist(flattened(xyz[rows, ], direction)))
+  cosine <- if (is.null(direction)) rep(1, length(rows)) else drop(normal[rows, ] %*% direction)
   bin <- match(floor(apart / (edge / 2)), floor(lagged$lag[-1] / (edge / 2))) + 1
   bin[diag(nrow(apart)) == 1] <- 1
-  used <- which(!is.na(bin))
-  count <- tabulate(bin[used], nrow(lagged))
-  left_of <- function(range) {
-    whole <- exp(-apart^2 / (2 * range^2))
+  pairs <- split(seq_along(bin), factor(bin, seq_len(nrow(lagged))))
+  count <- lengths(pairs)
+  used <- unlist(pairs, use.names = FALSE)
+  rest <- function(whole) {
     moved <- whole %*% moves
     part <- tcrossprod(moves, moved)
     whole - part - t(part) + moves %*% tcrossprod(crossprod(moves, moved), moves)
   }
-  left <- function(range) {
-    sums <- rowsum(left_of(range)[used], bin[used])
-    replace(rep(NA_real_, nrow(lagged)), as.integer(rownames(sums)), sums) / count
+  by_lag <- function(matrix) {
+    sums <- diff(c(0, cumsum(matrix[used])[cumsum(count)]))
+    ifelse(count > 0, sums / count, NA_real_)
   }
-  df <- function(range) {
-    rest <- left_of(range)
-    sum(diag(rest))^2 / sum(rest^2)
-  }
-  structure(left, share = 1 - rank / nrow(xyz), df = df)
+  list(whole = function(range) rest(tcrossprod(cosine) * exp(-apart^2 / (2 * range^2))),
+       by_lag = by_lag, pairs = pairs, single = rest(diag(cosine^2)),
+       share = mean(cosine^2) * (1 - rank / nrow(xyz)))
 }
 
 #' Independent and smooth part of the noise of each scan
@@ -290,35 +305,104 @@ left_by_registration <- function(xyz, normal, lagged, edge, most = 400) {
 #' registration takes away, and at lag 0 (1 + weight) independent^2 besides: a closest place is a
 #' mean of three vertices. Lags below `shortest` edges are left out, since closest places that near
 #' share vertices; a range below one edge cannot be distinguished from independent noise.
+#'
+#' Least squares, then generalized least squares by the covariance of the lagged covariances under
+#' that first fit (Genton 1998, Math. Geology 30, 323-345). Covariances of one scan go up and down
+#' together, but their differences, which tell the range, are known well.
+#'
+#' @param weight As of [laid_on()].
 #' @param left As of [left_by_registration()].
-#' @return List: `noise` (`independent`, `smooth`, `range`), `values` (fitted by lag).
+#' @param slack Added to the diagonal, as a share of its mean: the model is not exact.
+#' @param ranges Number of ranges that are tried first.
+#' @return List: `noise` (`independent`, `smooth`, `range`), `values` (fitted by lag), `spread` (as
+#'   [scan_noise()] says).
 #' @noRd
-fitted_noise <- function(lagged, weight, edge, left, shortest = 2) {
+fitted_noise <- function(lagged, weight, edge, left, shortest = 2, slack = 0.01, ranges = 25) {
   zero <- lagged$lag == 0
-  single <- zero * (1 + weight) * attr(left, "share")
-  fit_at <- function(log_range) {
-    shape <- left(exp(log_range))
-    far <- lagged$lag >= shortest * edge & !is.na(shape)
-    level <- function(used) {
-      max(0, sum(shape[used] * lagged$covariance[used]) / sum(shape[used]^2)) / 2
-    }
-    smooth <- level(far)
-    rest <- lagged$covariance[zero] - 2 * smooth * shape[zero]
-    if (rest < 0) smooth <- level(far | zero)
-    independent <- max(0, rest) / single[zero]
-    values <- 2 * smooth * shape + single * independent
-    list(independent = sqrt(independent), smooth = sqrt(smooth), values = values,
-         off = sum((lagged$covariance - values)[far | zero]^2))
+  used <- which((zero | lagged$lag >= shortest * edge) & lengths(left$pairs) > 0)
+  design <- function(log_range) {
+    cbind(zero * (1 + weight) * left$share, 2 * left$by_lag(left$whole(exp(log_range))))
   }
   span <- log(c(edge, max(lagged$lag)))
-  grid <- seq(span[1], span[2], length.out = 25)
-  off <- vapply(grid, function(x) fit_at(x)$off, 0)
-  about <- grid[pmin(pmax(which.min(off) + c(-1, 1), 1), length(grid))]
-  best <- stats::optimize(function(x) fit_at(x)$off, about, tol = 1e-3)$minimum
-  fit <- fit_at(best)
-  range <- if (fit$smooth > 0) exp(best) else 0
-  list(noise = list(independent = fit$independent, smooth = fit$smooth, range = range),
-       values = fit$values)
+  grid <- seq(span[1], span[2], length.out = ranges)
+  designs <- lapply(grid, design)
+  best <- function(factor) {
+    fit <- function(design) {
+      white <- function(x) backsolve(factor, x, transpose = TRUE)
+      nonnegative_pair(white(design[used, ]), drop(white(lagged$covariance[used])))
+    }
+    off <- vapply(designs, function(design) fit(design)$off, 0)
+    about <- grid[pmin(pmax(which.min(off) + c(-1, 1), 1), length(grid))]
+    at <- stats::optimize(function(x) fit(design(x))$off, about, tol = 1e-3)$minimum
+    levels <- sqrt(fit(design(at))$levels)
+    list(independent = levels[1], smooth = levels[2], range = if (levels[2] > 0) exp(at) else 0)
+  }
+  forms <- function(noise) lag_forms(noise, weight, left)[used, used]
+  noise <- best(diag(length(used)))
+  factor <- forms(noise)
+  factor <- if (any(factor != 0)) chol(factor + slack * mean(diag(factor)) * diag(length(used)))
+  if (is.null(factor)) return(list(noise = noise, values = 0 * zero, spread = matrix(0, 3, 3)))
+  noise <- best(factor)
+  inner <- abs(log(noise$range) - mean(span)) < 0.499 * diff(span)
+  slope <- noise_slope(noise, design, inner)
+  values <- drop(slope$design %*% c(noise$independent, noise$smooth)^2)
+  white <- backsolve(factor, slope$by[used, , drop = FALSE], transpose = TRUE)
+  back <- MASS::ginv(white) %*% backsolve(factor, diag(length(used)), transpose = TRUE)
+  spread <- back %*% forms(noise) %*% t(back)
+  list(noise = noise, values = values, spread = spread)
+}
+
+#' Two factors, neither below 0, of the least sum of squares
+#' @return List: `levels`, `off` (the sum of squares).
+#' @noRd
+nonnegative_pair <- function(design, values) {
+  off <- function(levels) sum((values - design %*% levels)^2)
+  both <- qr.coef(qr(design), values)
+  if (!anyNA(both) && all(both >= 0)) return(list(levels = both, off = off(both)))
+  alone <- pmax(0, colSums(design * values) / pmax(colSums(design^2), .Machine$double.xmin))
+  single <- list(c(alone[1], 0), c(0, alone[2]))
+  offs <- vapply(single, off, 0)
+  list(levels = single[[which.min(offs)]], off = min(offs))
+}
+
+#' Derivative of the lagged covariances by independent^2, smooth^2 and log(range)
+#'
+#' @param design Function of log(range), lags x 2.
+#' @param inner Whether the range is free, and not at its limit.
+#' @return List: `design`, `by` (lags x 3; 0 for what is not there).
+#' @noRd
+noise_slope <- function(noise, design, inner, step = 0.01) {
+  if (noise$smooth == 0) {
+    at <- cbind(design(0)[, 1], 0)
+    return(list(design = at, by = cbind(at, 0)))
+  }
+  at <- design(log(noise$range))
+  wider <- design(log(noise$range) + step)[, 2] - design(log(noise$range) - step)[, 2]
+  by <- cbind(at * rep(c(noise$independent > 0, TRUE), each = nrow(at)),
+              inner * noise$smooth^2 * wider / (2 * step))
+  list(design = at, by = by)
+}
+
+#' Covariance of the lagged covariances of two scans
+#'
+#' They are quadratic forms d' W d of normal distances d. With K the covariance of d, two of them
+#' have the covariance 2 tr(W_k K W_l K) (Pardo-Iguzquiza and Dowd 2001, Math. Geology 33, 397-419).
+#'
+#' @param noise List: `independent`, `smooth`, `range`.
+#' @return Lags x lags.
+#' @noRd
+lag_forms <- function(noise, weight, left) {
+  covariance <- (1 + weight) * noise$independent^2 * left$single
+  if (noise$smooth > 0) covariance <- covariance + 2 * noise$smooth^2 * left$whole(noise$range)
+  n <- nrow(covariance)
+  products <- vapply(left$pairs, function(pairs) {
+    means <- Matrix::sparseMatrix((pairs - 1) %% n + 1, (pairs - 1) %/% n + 1,
+                                  x = 1 / max(1, length(pairs)), dims = c(n, n))
+    as.vector(means %*% covariance)
+  }, numeric(n^2))
+  turned <- as.vector(t(matrix(seq_len(n^2), n)))
+  forms <- 2 * crossprod(products, products[turned, ])
+  (forms + t(forms)) / 2
 }
 
 #' @export
@@ -337,18 +421,21 @@ print.scan_noise <- function(x, ...) {
 
 #' The setting `noise`: NA, or standard deviations and correlation length
 #'
-#' What [scan_noise()] measured has its degrees of freedom as an attribute, `df`.
+#' What [scan_noise()] measured has its sampling covariance as an attribute, `spread`.
 #' @noRd
 noise_setting <- function(noise) {
-  df <- attr(noise, "df")
+  spread <- attr(noise, "spread")
+  direction <- attr(noise, "direction")
   if (inherits(noise, "scan_noise")) {
-    df <- noise$df
+    spread <- noise$spread
+    direction <- noise$direction
     noise <- unlist(noise[c("independent", "smooth", "range")])
   }
   if (length(noise) == 1 && is.na(noise)) return(NA)
   known <- is.numeric(noise) && length(noise) == 3 && all(is.finite(noise)) && all(noise >= 0)
   if (known) {
-    return(structure(as.numeric(noise), names = c("independent", "smooth", "range"), df = df))
+    return(structure(as.numeric(noise), names = c("independent", "smooth", "range"),
+                     spread = spread, direction = direction))
   }
   crestline_abort(sprintf("`noise` is %s.", describe_value(noise)),
                   "Give what scan_noise() returns, or NA.", stage = "arguments")

@@ -46,6 +46,31 @@ finished_curves <- function(whole, open, scan, cut_scale) {
   })
 }
 
+#' Curves fitted with the expected tracks of the scheme, and again without where these are of other
+#' objects
+#'
+#' @param scan As of [prepare_scan()].
+#' @param tick Called after every curve.
+#' @param fit Function of a scan and `tick`, which gives fits.
+#' @noRd
+by_own_tracks <- function(scan, tick, fit) {
+  fits <- fit(scan, tick)
+  scheme <- scan$scheme
+  if (!NROW(scheme$tracks)) return(fits)
+  foreign <- foreign_tracks(scheme,
+                            track_departures(scheme, lapply(fits, `[[`, "path"), scan$landmarks))
+  if (is.null(foreign)) return(fits)
+  crestline_warn(
+    sprintf("%d of %d curves leave their expected tracks, which are not used: %s.",
+            length(foreign$off), foreign$of, shorten(foreign$off)),
+    paste("The tracks may be of another population, or landmarks are wrong. Learn tracks from",
+          "specimens like this one, see learn_tracks()."),
+    stage = "curves", id = scan$id, class = "crestline_foreign_tracks"
+  )
+  scan$scheme["tracks"] <- list(NULL)
+  fit(scan, function() NULL)
+}
+
 #' A curve as a record; in place of a ridge or valley that could not be estimated the shortest cut,
 #' or the reason alone
 #'
@@ -176,9 +201,11 @@ refit_curves <- function(fitting, specimen, moved = NULL, progress = function(n)
   placed <- scan_landmarks(scan)
   scan[names(placed)] <- placed
   fitting$scan <- scan
-  fitting$whole <- fit_whole_curves(fitting$whole, touched, scan, progress(sum(touched)))
   every <- rep(TRUE, nrow(scheme$curves))
-  fitting$fits <- finished_curves(fitting$whole, every, scan, 1)
+  fitting$fits <- by_own_tracks(scan, progress(sum(touched)), function(scan, tick) {
+    fitting$whole <<- fit_whole_curves(fitting$whole, touched, scan, tick)
+    finished_curves(fitting$whole, every, scan, 1)
+  })
   fitting$refitted <- scheme$curves$curve[touched]
   fitting
 }
@@ -200,8 +227,10 @@ grow_fitting <- function(before, after, progress = function(n) function() NULL) 
                             lapply(before$scheme$curves[at, names(rows)], identity))
   }, NA)
   after$whole[same] <- before$whole[rows$curve[same]]
-  after$whole <- fit_whole_curves(after$whole, !same, after$scan, progress(sum(!same)))
-  after$fits <- finished_curves(after$whole, rep(TRUE, nrow(rows)), after$scan, 1)
+  after$fits <- by_own_tracks(after$scan, progress(sum(!same)), function(scan, tick) {
+    after$whole <<- fit_whole_curves(after$whole, !same, scan, tick)
+    finished_curves(after$whole, rep(TRUE, nrow(rows)), scan, 1)
+  })
   after$refitted <- rows$curve[!same]
   after
 }

@@ -129,7 +129,10 @@
 #' @section Warnings: of class `crestline_exchanged`: landmarks look exchanged
 #'   (`crestline_mirrored`: left and right of all pairs). [quality()] grades them, and the curves
 #'   that end there, red. Of class `crestline_unused_landmarks`: a landmark of the scheme is
-#'   missing, and the specimen has one of a similar name (`prn` for `pn`, `CHL` for `chL`).
+#'   missing, and the specimen has one of a similar name (`prn` for `pn`, `CHL` for `chL`). Of class
+#'   `crestline_foreign_tracks`: a quarter of the curves, and at least three, leave the scheme's
+#'   expected tracks ([learn_tracks()]) by more than four spreads. The curves are then measured
+#'   without these.
 #' @templateVar where section 4
 #' @template paper
 #' @examples
@@ -171,8 +174,10 @@ fit_shape <- function(specimen, scheme = face_scheme(), settings = ridge_setting
   )
   fits <- given_fits(scan, curves)
   open <- vapply(fits, is.null, NA)
-  fits <- finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan,
-                          asked$measuring$cut_scale)
+  fits <- by_own_tracks(scan, tick, function(scan, tick) {
+    finished_curves(fit_whole_curves(fits, open, scan, tick), open, scan,
+                    asked$measuring$cut_scale)
+  })
   patches <- fit_scheme_patches(scan, fits, place_store(scan, fits), tick)
   shape <- new_shape(
     specimen$id, shape_points(scheme, patches$store), shape_status(scan, fits, patches$problems),

@@ -8,10 +8,15 @@
 #' written into the scheme. [fit_shape()] with that scheme uses them twice:
 #'
 #' * as a weak prior on the reference path. The criterion of a plane that is z spreads off the
-#'   expected places is multiplied by \eqn{\exp(-z^2 / 32)}{exp(-z^2 / 32)} (0.6 at four spreads).
-#'   The distance of the closest plane is subtracted first;
+#'   expected places is multiplied by \eqn{1 / (1 + z^2 / 32)}{1 / (1 + z^2 / 32)} (0.67 at four
+#'   spreads). The distance of the closest plane is subtracted first. The tail is that of Student's
+#'   distribution with one degree of freedom: a track that does not fit the object gives way to a
+#'   clear surface (O'Hagan 1979);
 #' * as a flag. [quality()] grades a curve amber if it is more than four spreads off its expected
-#'   track at one place (limit `track` of [quality_limits()]).
+#'   track at one place (limit `track` of [quality_limits()]). If a quarter of a specimen's curves
+#'   are that far off, and at least three, the tracks are of another population, or its landmarks are
+#'   wrong. [fit_shape()] then measures the curves without tracks, and gives a warning of class
+#'   `crestline_foreign_tracks`.
 #'
 #' Medians and median absolute deviations are taken, so a few wrong curves do no harm. Look at the
 #' specimens nevertheless ([quality()]). They should vary like the specimens that you will measure.
@@ -33,6 +38,8 @@
 #'   * the scheme lacks typical places (`x`, `y`, `z`) of its landmarks;
 #'   * no curve is on at least `fewest` shapes.
 #' @template glossary
+#' @references O'Hagan A (1979) On outlier rejection phenomena in Bayes inference. *Journal of the
+#'   Royal Statistical Society B* 41: 358-367.
 #' @seealso [fit_shape()], [quality()], [curve_scheme()] for the table
 #' @examples
 #' \donttest{

@@ -190,6 +190,16 @@ Responses responses(const MeshGraph& mesh, const std::vector<int>& targets, cons
   return responder.finish();
 }
 
+// Responses to errors along an axis: those along the normals times its cosines with them (3 x vertices).
+void along_axis(Responses& r, const std::vector<double>& normals, const double* axis) {
+  for (std::size_t c = 0; c < r.vertex.size(); ++c) {
+    const double* normal = &normals[3 * r.vertex[c]];
+    double cosine = normal[0] * axis[0] + normal[1] * axis[1] + normal[2] * axis[2];
+    r.own[c] *= cosine * cosine;
+    for (Entry& entry : r.by_function[c]) entry.second *= cosine;
+  }
+}
+
 // Calls use(j) for every place j (from 0, one of n, itself among them) within `reach` of each i in turn: by a grid
 // of cells of that side.
 template <class Start, class Use>
@@ -227,6 +237,7 @@ CurvatureCovariance curvature_covariance(const MeshGraph& mesh, const std::vecto
                                          const FitSettings& settings,
                                          const std::function<void()>& between) {
   Responses r = responses(mesh, targets, directions, design, functions, settings, between);
+  if (noise.axis) along_axis(r, mesh.normals, noise.axis);
   std::size_t size = functions;
   CurvatureCovariance out{std::vector<double>(size * size, 0.0), 0.0};
   for (std::size_t c = 0; c < r.vertex.size(); ++c) {
@@ -242,7 +253,11 @@ CurvatureCovariance curvature_covariance(const MeshGraph& mesh, const std::vecto
     for (std::size_t q = 0; q < p; ++q) out.matrix[size * p + q] = out.matrix[size * q + p];
   if (noise.smooth == 0 || noise.range == 0) return out;
   std::vector<double> xyz;
-  for (int v : r.vertex) xyz.insert(xyz.end(), corner(mesh.mesh, v), corner(mesh.mesh, v) + 3);
+  for (int v : r.vertex) {
+    const double* p = corner(mesh.mesh, v);
+    double depth = noise.axis ? p[0] * noise.axis[0] + p[1] * noise.axis[1] + p[2] * noise.axis[2] : 0;
+    for (int a = 0; a < 3; ++a) xyz.push_back(noise.axis ? p[a] - depth * noise.axis[a] : p[a]);
+  }
   std::vector<double> sum(size);
   double variance = noise.smooth * noise.smooth, scale = -1 / (2 * noise.range * noise.range);
   int last = -1;

@@ -19,10 +19,12 @@ Curvature curvature(const MeshGraph& mesh, const std::vector<int>& targets,
                     const std::function<void()>& between);
 
 // Errors of the vertices along the normal: independent with standard deviation sigma (n values), and besides smooth
-// in space with standard deviation `smooth` and correlation exp(-(distance / range)^2 / 2).
+// in space with standard deviation `smooth` and correlation exp(-(distance / range)^2 / 2). With an axis (a unit vector,
+// else null) errors are along it: less of them along the normal of a slope, and distances are seen along the axis.
 struct HeightNoise {
   const double* sigma;
   double smooth, range;
+  const double* axis;
 };
 
 struct CurvatureCovariance {

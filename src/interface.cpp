@@ -214,7 +214,8 @@ List cpp_curvature(SEXP graph, IntegerVector targets, List settings, int threads
 }
 
 // along, across: two margins of a tensor product, rows x functions each; target: of each of their rows, from 1;
-// sigma: of each vertex named, `other` of the rest; smooth: standard deviation and range of the correlated part.
+// sigma: of each vertex named, `other` of the rest; smooth: standard deviation and range of the correlated part, and
+// a unit vector if all errors have one direction.
 // [[Rcpp::export]]
 List cpp_curvature_covariance(SEXP graph, IntegerVector targets, NumericMatrix directions, List margins,
                               IntegerVector target, IntegerVector vertex, NumericVector sigma, double other,
@@ -226,8 +227,9 @@ List cpp_curvature_covariance(SEXP graph, IntegerVector targets, NumericMatrix d
   int size = along.ncol() * across.ncol();
   std::vector<double> design = crestline::summed_tensor(along.begin(), along.ncol(), across.begin(), across.ncol(),
                                                         from_zero(target), targets.size());
+  const double* axis = smooth.size() > 2 ? &smooth[2] : nullptr;
   crestline::CurvatureCovariance c = crestline::curvature_covariance(
-      mesh, from_zero(targets), directions.begin(), design.data(), size, {known.data(), smooth[0], smooth[1]},
+      mesh, from_zero(targets), directions.begin(), design.data(), size, {known.data(), smooth[0], smooth[1], axis},
       fit_settings(settings), [] { checkUserInterrupt(); });
   return List::create(_["matrix"] = NumericMatrix(size, size, c.matrix.begin()), _["trace"] = c.trace);
 }

@@ -63,10 +63,13 @@ run_alternatives <- function(n, most = 50L,
   if (is.null(methods$"principal curve")) cat(paste("princurve is not installed: the principal",
                                                     "curve is left out.\n"))
   dir <- output("alternatives")
-  compared <- names(methods) %in% closest
-  rbind(run_factors(bent, methods[compared], n, dir),
-        run_factors(bent, methods[!compared], min(n, most), dir),
-        run_factors(others, methods, min(n, most), dir))
+  # One method after the other, so that a run that is cut short has whole methods.
+  each <- function(factors, names, n) {
+    do.call(rbind, lapply(names, function(name) run_factors(factors, methods[name], n, dir)))
+  }
+  rbind(each(bent, intersect(closest, names(methods)), n),
+        each(others, names(methods), min(n, most)),
+        each(bent, setdiff(names(methods), closest), min(n, most)))
 }
 
 run_factors <- function(factors, methods, n, dir) {

@@ -1,11 +1,14 @@
-test_that("a plane through the expected places counts whole, one aside as a Gaussian", {
+test_that("a plane through the expected places counts whole, one aside by a long tail", {
   ends <- list(exact = matrix(c(0, 10, 0, 0, 0, 0), 2), axis = c(1, 0, 0), across = c(0, 1, 0))
   track <- list(xyz = cbind(c(3, 5, 7), 2, 0), across = cbind(0, c(0, 0, 0), 1),
                 spread = rep(0.5, 3))
   weight <- plane_weight(track, ends)
   # The plane at angle pi / 2 contains y, at 0 z: the places are 2, four spreads, from it.
-  expect_equal(weight(c(pi / 2, 0)), c(1, exp(-1 / 2)), tolerance = 1e-6)
+  expect_equal(weight(c(pi / 2, 0)), c(1, 2 / 3), tolerance = 1e-6)
   expect_identical(plane_weight(NULL, ends)(0), 1)
+  # A long tail: at ten times the distance a hundredth, and not exp(-50).
+  far <- within_list(track, spread = rep(0.05, 3))
+  expect_equal(plane_weight(far, ends)(0), 1 / (1 + 100 / 2), tolerance = 1e-6)
   # What no plane can reach does not count.
   bent <- track
   bent$xyz[2, 3] <- 1.5

@@ -20,7 +20,7 @@ test_that("the noise of two simulated scans comes back: its size, and how far it
   }
   alone <- measured(0)
   expect_equal(alone[["independent"]], 0.01, tolerance = 0.2)
-  expect_lt(alone[["smooth"]], 0.003)
+  expect_lt(alone[["smooth"]], 0.0045)
   for (steps in 1:3) {
     spacing <- if (steps == 3) 0.025 else 0.05 # a square of enough ranges
     found <- measured(steps, spacing)
@@ -92,25 +92,67 @@ test_that("known noise takes the noise factor's place, and widens the kernel if 
   expect_identical(known$noise_factor, 1)
   expect_gt(blind$noise_factor, 10)
   expect_gt(known$line$kernel, blind$line$kernel)
-  expect_identical(structure(known$settings$noise, df = NULL),
+  expect_identical(structure(known$settings$noise, spread = NULL),
                    c(independent = noise$independent, smooth = noise$smooth, range = noise$range))
-  # The same noise, but exactly known: the band is narrower by Student's quantile, between those of
-  # both parts.
-  exact <- fit(ridge_settings(noise = structure(known$settings$noise, df = NULL)))
-  wider <- (known$se / exact$se)
+  # The same noise, but exactly known: the band is narrower.
+  exact <- fit(ridge_settings(noise = structure(known$settings$noise, spread = NULL)))
+  wider <- known$se / exact$se
   expect_gt(wider, 1.01)
-  expect_lt(wider, stats::qt(stats::pnorm(2), noise$df[["smooth"]]) / 2)
+  expect_lt(wider, 1.2)
 })
 
-test_that("smooth noise has as many degrees of freedom as a scan holds patches of it", {
-  scans <- repeated(0.01, 2, 5, b = 0.05)
-  noise <- scan_noise(scans[[1]], scans[[2]], near = scans[[1]]$mesh$vb[1:3, ] |> t())
-  # On a square of side 2 a mean square has area / (pi range^2), but for the borders, and the
-  # movements that registration takes.
-  patches <- 4 / (pi * noise$range^2)
-  expect_gt(noise$df[["smooth"]], 0.7 * patches)
-  expect_lt(noise$df[["smooth"]], 1.3 * patches)
-  expect_gt(noise$df[["independent"]], 0.9 * noise$points)
+test_that("a variance under measured noise is widened by Student's quantile of its own spread", {
+  # v = 3 x + 2 y at x = 1, y = 2; sd of v by the spread of x and y: sqrt(9 * 0.5 + 4 * 0.25)
+  noise <- list(factor = 1, matrix = matrix(7), doubt = list(
+    slopes = list(matrix(3), matrix(2), matrix(0)), spread = diag(c(0.5, 0.25, 9))
+  ))
+  df <- 2 * 49 / 5.5
+  expect_equal(noise_variance(matrix(1), noise), 7 * (stats::qt(stats::pnorm(2), df) / 2)^2)
+  expect_identical(noise_variance(matrix(0), noise), 0)
+  # No spread of what was measured: nothing is widened.
+  noise$doubt$spread <- diag(0, 3)
+  expect_equal(noise_variance(matrix(1), noise), 7)
+})
+
+test_that("the spread of what is measured is that of repeated scans", {
+  found <- vapply(1:5, function(seed) {
+    scans <- repeated(0.01, 2, 50 + seed, b = 1)
+    noise <- scan_noise(scans[[1]], scans[[2]], reach = 0.2, direction = c(0, 0, 1),
+                        near = attr(scans[[1]], "truth")[1:20 * 20, ])
+    c(noise$smooth^2, log(noise$range), sqrt(diag(noise$spread))[2:3], noise$smooth, noise$range)
+  }, numeric(6))
+  # Standard deviations of five, between the 0.1 % points of chi-squared with 4 degrees of freedom
+  for (i in 1:2) {
+    expect_gt(stats::sd(found[i, ]), 0.15 * mean(found[i + 2, ]))
+    expect_lt(stats::sd(found[i, ]), 2.15 * mean(found[i + 2, ]))
+  }
+  expect_equal(mean(found[5, ]), 0.01, tolerance = 0.2)
+  expect_equal(mean(found[6, ]), sqrt(2) * 2 * 0.05, tolerance = 0.2)
+})
+
+test_that("errors along a direction are smaller along the normals of slopes, and reach further", {
+  # A tilted plane: errors along z are cos(tilt) of them along its normal, and their correlation in
+  # the slope's direction is longer by 1 / cos(tilt).
+  tilted <- function(seed) {
+    flat <- simulate_ridge(0, 1e-9, noise = 0, seed = 1)$mesh
+    rough <- simulate_ridge(0, 1e-9, noise = 0.01, correlation = 2, seed = seed)$mesh
+    flat$vb[3, ] <- flat$vb[1, ] + rough$vb[3, ]
+    flat
+  }
+  scans <- lapply(c(7, 8), tilted)
+  along <- scan_noise(scans[[1]], scans[[2]], direction = c(0, 0, 2))
+  across <- scan_noise(scans[[1]], scans[[2]])
+  expect_identical(along$direction, c(0, 0, 1))
+  expect_equal(across$sd / along$sd, sqrt(1 / 2), tolerance = 0.1)
+  expect_gt(across$range, along$range)
+  # And so the same errors are propagated less on slopes.
+  curve <- function(noise) {
+    suppressWarnings(ridge_curve(repeated(0, 0, 1)[[1]], "from", "to", "ridge", 0.25, 0.4, 21,
+                                 settings = ridge_settings(noise = noise)))$se
+  }
+  noise <- c(0.004, 0.01, 0.1)
+  expect_lt(curve(structure(noise, direction = c(0, 0, 1))), curve(noise))
+  expect_crestline_error(scan_noise(scans[[1]], scans[[2]], direction = c(0, 0, 0)), "`direction`")
 })
 
 test_that("scans that cannot be compared are refused", {

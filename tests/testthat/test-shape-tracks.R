@@ -41,7 +41,7 @@ test_that("a learnt track lies on the curves, in the frame of the scheme's landm
 })
 
 test_that("a stronger ridge elsewhere is taken without a track only, and is amber then", {
-  other <- arches_specimen(2.4, 2.8, 9)
+  other <- arches_specimen(2.4, 2.5, 9)
   expect_lt(middle_of(fit_arches(other)), -4)
   with_track <- fit_arches(other, learnt)
   expect_gt(middle_of(with_track), 4)
@@ -52,6 +52,35 @@ test_that("a stronger ridge elsewhere is taken without a track only, and is ambe
   expect_equal(as.character(graded$grade), "amber")
   expect_match(graded$why, "leaves its expected track by [0-9.]+ spreads")
   expect_lt(quality(with_track)$track[4], 4)
+  # One that is stronger by far prevails, and is amber.
+  clear <- fit_arches(arches_specimen(2.4, 2.8, 9), learnt)
+  expect_lt(middle_of(clear), -4)
+  expect_gt(quality(clear)$track[4], 4)
+})
+
+test_that("tracks of other objects are said and not used", {
+  away <- c(7, 5, 4.5, 1, NA)
+  named <- list(curves = data.frame(curve = c("brow", "lip", "nose", "chin", "ear")))
+  expect_identical(foreign_tracks(named, away), list(off = c("brow", "lip", "nose"), of = 4L))
+  expect_null(foreign_tracks(named, c(7, 5, 4, 1, NA))) # too few
+  expect_null(foreign_tracks(named, c(away, rep(1, 9))))
+  expect_null(foreign_tracks(named, NA * away))
+  # Three names for one curve, whose track is of objects with the arch on the other side
+  rows <- arches_scheme$curves[c(1, 1, 1), ]
+  rows$curve <- c("arch", "bow", "vault")
+  three <- curve_scheme(arches_scheme$landmarks, rows, name = "arches")
+  turned <- lapply(1:3, function(seed) fit_arches(arches_specimen(2, 3, seed), three))
+  foreign <- learn_tracks(turned, fewest = 3, places = 5)
+  fit <- function(scheme) {
+    fit_shape(right_ones[[1]], scheme, ridge_settings(error = FALSE), progress = FALSE)
+  }
+  plain <- fit(three)
+  expect_warning(shape <- fit(foreign), "3 of 3 curves leave .* not used: arch, bow, vault",
+                 class = "crestline_foreign_tracks")
+  expect_identical(shape$points, plain$points)
+  expect_true(all(quality(shape)$track[shape$status$level == "curves"] > 4))
+  expect_no_warning(fit(learn_tracks(lapply(right_ones[1:3], fit_arches, three), fewest = 3)),
+                    class = "crestline_foreign_tracks")
 })
 
 test_that("tracks are the same in another pose and unit, and one wrong curve does no harm", {
