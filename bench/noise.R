@@ -168,14 +168,15 @@ covered <- function(spacing = 0.05) {
     surface <- scan(seed)
     ways <- list(factor = NA)
     if (cell$correlation > 0) {
-      # Compared by the ridge, as on a face by its curves: the noise is along z, and less of it
-      # along the normal of a slope.
+      # Compared by the ridge, as on a face by its curves; the scanner looks along z.
       first <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 21,
-                                            settings = ridge_settings("one pass")))
+                                            settings = ridge_settings("one pass", error = FALSE)))
       ways$known <- tryCatch(scan_noise(surface, scan(seed + 1000),
-                                        near = first$points[c("x", "y", "z")], reach = 0.2),
+                                        near = first$points[c("x", "y", "z")], reach = 0.2,
+                                        direction = c(0, 0, 1)),
                              error = function(e) NULL)
-      ways$true <- c(0, cell$noise, sqrt(2) * cell$correlation * spacing)
+      true <- c(0, cell$noise, sqrt(2) * cell$correlation * spacing)
+      ways$true <- structure(true, direction = c(0, 0, 1))
     }
     for (way in names(ways)) {
       curve <- suppressWarnings(ridge_curve(surface, "from", "to", "ridge", 0.25, 0.4, 21,

@@ -196,7 +196,7 @@ void along_axis(Responses& r, const std::vector<double>& normals, const double* 
     const double* normal = &normals[3 * r.vertex[c]];
     double cosine = normal[0] * axis[0] + normal[1] * axis[1] + normal[2] * axis[2];
     r.own[c] *= cosine * cosine;
-    for (Entry& entry : r.by_function[c]) entry.second *= cosine;
+    for (std::size_t p = r.start[c]; p < r.start[c + 1]; ++p) r.entry[p].second *= cosine;
   }
 }
 
