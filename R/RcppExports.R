@@ -77,8 +77,8 @@ cpp_cut_axis <- function(vb, it, twin, from, to) {
     .Call(`_crestline_cpp_cut_axis`, vb, it, twin, from, to)
 }
 
-cpp_plane_cuts <- function(vb, it, twin, from, to, normals, sides, reach) {
-    .Call(`_crestline_cpp_plane_cuts`, vb, it, twin, from, to, normals, sides, reach)
+cpp_plane_cuts <- function(vb, it, twin, from, to, normals, sides, reach, longest, limit) {
+    .Call(`_crestline_cpp_plane_cuts`, vb, it, twin, from, to, normals, sides, reach, longest, limit)
 }
 
 cpp_cut_weights <- function(vb, it, twin, from, to, normals, sides, reach, step) {

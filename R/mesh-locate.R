@@ -4,8 +4,9 @@
 # as.matrix() and data.frame(), which cost more than what is done with them.
 columns_of <- function(x, names = mesh_columns) do.call(cbind, unclass(x)[names])
 frame_of <- function(columns, ..., class = NULL) {
-  structure(columns, row.names = .set_row_names(length(columns[[1]])), ...,
-            class = c(class, "data.frame"))
+  attributes(columns) <- c(list(names = names(columns), class = c(class, "data.frame"),
+                                row.names = .set_row_names(length(columns[[1]]))), list(...))
+  columns
 }
 
 #' The closest places of a surface

@@ -138,7 +138,9 @@ find_reference <- function(ends, type, strength, radius, search, weight = functi
   } else {
     function(found) cut_strength(ends, found, search$reach, search$spacing * radius, strength)
   }
-  measure <- function(angle, side) measure_cuts(ends, angle, side, search$reach)
+  measure <- function(angle, side, limit = Inf) {
+    measure_cuts(ends, angle, side, search$reach, search$longest, limit)
+  }
   optima <- cut_optima(measure, rate, search, weight)
   if (nrow(optima) == 0) {
     return(no_result(
@@ -181,22 +183,28 @@ shares_of_first <- function(optima, type) {
 limited_cut <- function(ends, limit, angles, reach, rate = function(found) -found$length,
                         longest = 1) {
   if (failed(ends)) return(ends)
-  found <- measure_cuts(ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach)
+  found <- measure_cuts(ends, seq(-limit, limit, length.out = angles), rep(0L, angles), reach,
+                        longest)
   if (all(is.na(found$length))) return(failed_cut(found$end[ceiling(angles / 2)], ends))
   allowed <- found[which(found$length <= longest * min(found$length, na.rm = TRUE)), ]
   cut_path(ends, allowed$angle[which.max(rate(allowed))], 0, reach)
 }
 
 #' Lengths of plane cuts, NA where a cut does not arrive
+#'
+#' @param longest,limit A cut is given up, as too far, where it is longer than `limit`, or may be
+#'   where it is longer than `longest` times the shortest. The straightest are tried first.
 #' @return Data frame `angle`, `side`, `length`, `end`.
 #' @noRd
-measure_cuts <- function(ends, angle, side, reach) {
+measure_cuts <- function(ends, angle, side, reach, longest = Inf, limit = Inf) {
   scan <- ends$scan
+  first <- order(side, abs(angle))
   found <- cpp_plane_cuts(
-    scan$vb, scan$it, scan$twin, ends$from, ends$to, plane_normal(ends, angle), side,
-    reach * ends$span
+    scan$vb, scan$it, scan$twin, ends$from, ends$to, plane_normal(ends, angle[first]), side[first],
+    reach * ends$span, longest, limit
   )
-  frame_of(list(angle = angle, side = side, length = found$length, end = found$end))
+  back <- order(first)
+  frame_of(list(angle = angle, side = side, length = found$length[back], end = found$end[back]))
 }
 
 #' Mean strength along plane cuts, at places no further apart than `step`
@@ -216,7 +224,7 @@ cut_strength <- function(ends, found, reach, step, strength) {
 
 #' Local optima of the criterion over angle and side, refined, best first
 #'
-#' @param measure Function of angles and sides, as [measure_cuts()].
+#' @param measure Function of angles, sides and a limit, as [measure_cuts()].
 #' @param rate Function of measured cuts that gives their criterion.
 #' @param weight As in [find_reference()].
 #' @param digits Criteria that agree to this many significant digits are equal: on a straight
@@ -246,7 +254,7 @@ cut_optima <- function(measure, rate, search, weight = function(angle) 1, digits
   }), use.names = FALSE)
   around <- step * seq(-1, 1, length.out = search$refined)
   fine <- rated(measure(rep(coarse$angle[peaks], each = search$refined) + around,
-                        rep(coarse$side[peaks], each = search$refined)))
+                        rep(coarse$side[peaks], each = search$refined), limit))
   all <- Map(c, lapply(coarse, `[`, peaks), fine)
   of_peak <- c(seq_along(peaks), rep(seq_along(peaks), each = search$refined))
   best <- vapply(split(seq_along(of_peak), of_peak), function(near) best_cut(all, near), 0L)

@@ -19,9 +19,10 @@ walked_line <- function(scan, coordinates, path, s, alpha) {
   level <- own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
   # Direction in which the curve leaves the first point: along the path and, by the slope, across
   # it
-  tangent <- unlist(without_stubs(path)[2, c("x", "y", "z")]) - unlist(path[1, c("x", "y", "z")])
+  start <- lapply(unclass(path)[mesh_columns], `[`, 1)
+  tangent <- columns_of(without_stubs(path), c("x", "y", "z"))[2, ] - at[1, 1:3]
   tangent <- tangent / sqrt(sum(tangent^2))
-  across <- cross_product(path_normals(scan, path[1, ])[, 1], tangent)
+  across <- cross_product(path_normals(scan, start)[, 1], tangent)
   towards <- tangent + ((alpha[2] - alpha[1]) / (s[2] - s[1])) * across / sqrt(sum(across^2))
   walked <- cpp_level_path(scan$vb, scan$it, scan$twin, ends$from[1], ends$to[1],
                            coordinates$vertex, level, towards)

@@ -13,11 +13,12 @@
 #' @param settings [ridge_settings()].
 #' @param most Where more vertices than this depend on the heights, one a cell of (s, d) stands for
 #'   the others: curvatures of neighbours, whose fits share most vertices, are nearly the same.
+#' @param factor Whether the noise factor is asked for.
 #' @return List: `matrix`, of the moments (square of the order of the smooth surface); `factor`, as
 #'   of [noise_factor()], 1 where the noise is known, NULL where not all vertices were used;
 #'   `doubt`, as of [noise_doubt()].
 #' @noRd
-moment_noise <- function(scan, window, radius, settings, most = Inf) {
+moment_noise <- function(scan, window, radius, settings, most = Inf, factor = TRUE) {
   surface <- window$surface
   strength <- window$strengths
   live <- which(surface$strength > 0 & surface$strength < strength$cap)
@@ -49,7 +50,7 @@ moment_noise <- function(scan, window, radius, settings, most = Inf) {
     kernel_settings(radius, settings$order)
   )
   found <- covariance(other, smooth)
-  if (length(rows) < length(live)) return(list(matrix = found$matrix))
+  if (!factor || length(rows) < length(live)) return(list(matrix = found$matrix))
   if (anyNA(known)) {
     return(list(matrix = found$matrix, factor = noise_factor(surface, live, margins, found)))
   }

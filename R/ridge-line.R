@@ -102,7 +102,9 @@ ridge_problem <- function(surface, scale, radius, settings, kernel = 0) {
   } else {
     parts <- grid - 1
     u <- seq(0, 1, length.out = grid)
-    second <- diff(diag(grid), differences = 2)[, -c(1, grid)] * parts^2 / radius
+    second <- kept_once(paste("differences", grid), {
+      diff(diag(grid), differences = 2)[, -c(1, grid)]
+    }) * parts^2 / radius
   }
   profile <- tcrossprod(margin_design(surface$margins$along, u), surface$coefficients)
   at_ends <- margin_design(surface$margins$across, c(0, 0)) * profile[c(1, grid), ]

@@ -111,8 +111,8 @@ nearest_crest <- function(step, curved, job, reach, along = 1, width = 0.5, plac
   beside <- drop(step %*% unit_vector(cross_product(axis, normal)))
   strip <- which(abs(beside) < along * radius & !is.na(value))
   tried <- reach * seq(-places, places) / places
-  gap <- abs(outer(tried, t[strip], `-`)) / (width * radius)
-  kernel <- pmax(1 - gap^2, 0)^2 *
+  square <- (outer(tried, t[strip], `-`) / (width * radius))^2
+  kernel <- pmax(1 - square, 0)^2 *
     rep(1 - (beside[strip] / (along * radius))^2, each = length(tried))
   mean <- drop(kernel %*% value[strip]) / rowSums(kernel)
   inner <- seq(2, length(tried) - 1)

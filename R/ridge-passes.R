@@ -97,7 +97,7 @@ with_curve <- function(scan, window) {
 #' @param window With its `line` without a kernel.
 #' @noRd
 kernel_width <- function(scan, window, radius, settings) {
-  noise <- moment_noise(scan, window, radius, settings, settings$kernel_vertices)
+  noise <- moment_noise(scan, window, radius, settings, settings$kernel_vertices, factor = FALSE)
   variance <- linear_variance(line_slope(window, radius, settings), noise$matrix)
   half <- min(settings$kernel_most, settings$kernel * stats::median(sqrt(variance)) / radius)
   if (is.na(half) || half < settings$kernel_least) 0 else half * radius

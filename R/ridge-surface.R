@@ -92,12 +92,22 @@ surface_factor <- function(moments) {
 #' @param closed Whether the interval is a circle: its end is its beginning.
 #' @noRd
 spline_margin <- function(k, lower, upper, closed = FALSE) {
-  key <- paste(k, lower, upper, closed)
-  if (is.null(kept_margins[[key]])) kept_margins[[key]] <- new_margin(k, lower, upper, closed)
-  kept_margins[[key]]
+  key <- paste("margin", k, lower, upper, closed)
+  kept_once(key, {
+    margin <- new_margin(k, lower, upper, closed)
+    margin$key <- key
+    margin
+  })
 }
 
-kept_margins <- new.env(parent = emptyenv())
+#' A value that depends on its key alone, made once a session
+#' @noRd
+kept_once <- function(key, value) {
+  if (is.null(kept_values[[key]])) kept_values[[key]] <- value
+  kept_values[[key]]
+}
+
+kept_values <- new.env(parent = emptyenv())
 
 new_margin <- function(k, lower, upper, closed) {
   term <- eval(substitute(mgcv::s(x, bs = basis, k = k, m = c(2, 2)),
@@ -118,9 +128,12 @@ margin_design <- function(margin, x, derivative = 0) {
 }
 
 tensor_penalty <- function(margins, anisotropy) {
-  along <- margins$along$S[[1]]
-  across <- margins$across$S[[1]]
-  kronecker(along, diag(ncol(across))) + anisotropy * kronecker(diag(ncol(along)), across)
+  key <- paste("penalty", margins$along$key, margins$across$key, format(anisotropy, digits = 17))
+  kept_once(key, {
+    along <- margins$along$S[[1]]
+    across <- margins$across$S[[1]]
+    kronecker(along, diag(ncol(across))) + anisotropy * kronecker(diag(ncol(along)), across)
+  })
 }
 
 #' The smoothing parameter with given equivalent degrees of freedom

@@ -9,9 +9,10 @@
 #' @return List by name of curve of [new_record()]s, before they are cut off.
 #' @noRd
 fit_whole_curves <- function(fits, open, scan, tick) {
+  rows <- unclass(scan$scheme$curves)
   for (i in scheme_plan(scan$scheme)$order) {
     if (!open[i]) next
-    row <- as.list(scan$scheme$curves[i, ])
+    row <- lapply(rows, `[`, i)
     found <- curve_record(row_job(row, row$from, scan, fits), !is.na(row$cut_share))
     # A curve that is to be cut off, and whose ends no cut joins: as much of it as the mesh has.
     near <- if (is.null(found$path) && !is.na(row$cut_share)) scan_place(scan, row$to)

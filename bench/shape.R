@@ -6,6 +6,9 @@
 #   peak memory)
 #   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R raw [times = 5]
 #
+#   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R passes [times = 5] (processor seconds of
+#   the face and of ten ridge curves, by the default and by one pass)
+#
 # "raw": from the file of the scan, without landmarks, to the model. Processor time (user and system)
 # and elapsed time of each step: `door` is read_specimen(), `scheme` face_scheme(), `find`
 # find_landmarks(), `fit` fit_shape() with standard errors and checks. A first round warms the
@@ -60,6 +63,18 @@ fit <- function(specimen, error, threads) {
             progress = FALSE)
 }
 
+# Processor seconds of a measurement by the default and by one pass.
+against_one_pass <- function(measure, times) {
+  settings <- list(default = ridge_settings(), "one pass" = ridge_settings("one pass"))
+  once <- function() {
+    vapply(settings, function(s) sum(system.time(suppressWarnings(measure(s)))[1:2]), 0)
+  }
+  once()
+  once()
+  seconds <- replicate(times, once())
+  round(cbind(median = apply(seconds, 1, stats::median), least = apply(seconds, 1, min)), 3)
+}
+
 # Every triangle in four, at the middles of its sides.
 divided <- function(mesh) {
   ends <- cbind(mesh$it[1:2, ], mesh$it[2:3, ], mesh$it[c(3, 1), ])
@@ -75,7 +90,14 @@ divided <- function(mesh) {
 
 peak <- function() grep("VmHWM", readLines("/proc/self/status"), value = TRUE)
 
-if (mode == "refined") {
+if (mode == "passes") {
+  times <- as.integer(c(commandArgs(TRUE), "5")[2])
+  cat("the face:\n")
+  print(against_one_pass(function(s) fit_shape(scan, scheme, s, progress = FALSE), times))
+  cat("ten ridge curves:\n")
+  curve <- function(s) ridge_curve(scan, "chL", "st", "valley", 5, 6, 9, settings = s)
+  print(against_one_pass(function(s) for (i in 1:10) curve(s), times))
+} else if (mode == "refined") {
   dense <- suppressWarnings(specimen(divided(divided(scan$mesh)), scan$landmarks, id = "refined"))
   rm(scan)
   invisible(gc())

@@ -20,11 +20,8 @@ row <- function(what, code, times) {
 
 surface <- crestline:::walkable(face)
 ends <- crestline:::located_ends(face, surface, "chL", "chR")
-normals <- crestline:::plane_normal(ends, seq(-pi / 2, pi / 2, length.out = 52)[-1])
-cuts <- function() {
-  crestline:::cpp_plane_cuts(surface$xyz, surface$it, surface$twin, ends$from, ends$to, normals,
-                             rep(0L, 51), Inf, numeric())
-}
+angles <- seq(-pi / 2, pi / 2, length.out = 52)[-1]
+cuts <- function() crestline:::measure_cuts(ends, angles, rep(0L, 51), Inf)
 curved <- curvature(face, 5, "adaptive cubic")
 curve <- function(error) {
   ridge_curve(face, "chL", "st", "valley", curved, 6, 9, ridge_settings(error = error))

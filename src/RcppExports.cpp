@@ -265,8 +265,8 @@ BEGIN_RCPP
 END_RCPP
 }
 // cpp_plane_cuts
-List cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach);
-RcppExport SEXP _crestline_cpp_plane_cuts(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP) {
+List cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from, NumericVector to, NumericMatrix normals, IntegerVector sides, double reach, double longest, double limit);
+RcppExport SEXP _crestline_cpp_plane_cuts(SEXP vbSEXP, SEXP itSEXP, SEXP twinSEXP, SEXP fromSEXP, SEXP toSEXP, SEXP normalsSEXP, SEXP sidesSEXP, SEXP reachSEXP, SEXP longestSEXP, SEXP limitSEXP) {
 BEGIN_RCPP
     Rcpp::RObject rcpp_result_gen;
     Rcpp::RNGScope rcpp_rngScope_gen;
@@ -278,7 +278,9 @@ BEGIN_RCPP
     Rcpp::traits::input_parameter< NumericMatrix >::type normals(normalsSEXP);
     Rcpp::traits::input_parameter< IntegerVector >::type sides(sidesSEXP);
     Rcpp::traits::input_parameter< double >::type reach(reachSEXP);
-    rcpp_result_gen = Rcpp::wrap(cpp_plane_cuts(vb, it, twin, from, to, normals, sides, reach));
+    Rcpp::traits::input_parameter< double >::type longest(longestSEXP);
+    Rcpp::traits::input_parameter< double >::type limit(limitSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_plane_cuts(vb, it, twin, from, to, normals, sides, reach, longest, limit));
     return rcpp_result_gen;
 END_RCPP
 }
@@ -851,7 +853,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_read_obj", (DL_FUNC) &_crestline_cpp_read_obj, 1},
     {"_crestline_cpp_border_loops", (DL_FUNC) &_crestline_cpp_border_loops, 1},
     {"_crestline_cpp_cut_axis", (DL_FUNC) &_crestline_cpp_cut_axis, 5},
-    {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 8},
+    {"_crestline_cpp_plane_cuts", (DL_FUNC) &_crestline_cpp_plane_cuts, 10},
     {"_crestline_cpp_cut_weights", (DL_FUNC) &_crestline_cpp_cut_weights, 9},
     {"_crestline_cpp_plane_path", (DL_FUNC) &_crestline_cpp_plane_path, 8},
     {"_crestline_cpp_level_path", (DL_FUNC) &_crestline_cpp_level_path, 8},

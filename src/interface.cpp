@@ -374,16 +374,19 @@ List cpp_cut_axis(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, Numeri
                       _["span"] = axis.span);
 }
 
+// Cuts are given up that will be longer than `limit`, or than `longest` times the shortest before them.
 // [[Rcpp::export]]
 List cpp_plane_cuts(NumericMatrix vb, IntegerMatrix it, IntegerMatrix twin, NumericVector from,
-                         NumericVector to, NumericMatrix normals, IntegerVector sides, double reach) {
+                    NumericVector to, NumericMatrix normals, IntegerVector sides, double reach,
+                    double longest, double limit) {
   crestline::Triangulation mesh = triangulation(vb, it, twin);
   int n = sides.size();
   NumericVector length(n);
   CharacterVector end(n);
   for (int i = 0; i < n; ++i) {
     crestline::PlaneCut cut = crestline::plane_cut(
-        mesh, {surface_point(from), surface_point(to), &normals(0, i), sides[i], reach, false});
+        mesh, {surface_point(from), surface_point(to), &normals(0, i), sides[i], reach, false, limit});
+    if (cut.end == crestline::WalkEnd::arrived) limit = std::min(limit, longest * cut.length);
     length[i] = cut.length;
     end[i] = walk_end(cut.end);
     checkUserInterrupt();

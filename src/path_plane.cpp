@@ -9,6 +9,8 @@ namespace crestline {
 
 namespace {
 
+constexpr double kRounding = 1e-9;  // share of a length by which a sum of its parts may be off
+
 double distance(const double* a, const double* b) {
   double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   return std::sqrt(dot(d, d));
@@ -152,6 +154,7 @@ PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& r) {
     at[a] = from[a];
   }
   double span = std::sqrt(dot(axis, axis)), offset = dot(r.normal, from);
+  const double longest = r.longest * (1 + kRounding);
   for (double& v : axis) v /= span;
   auto value = [&](int v) { return dot(r.normal, corner(mesh, v)) - offset; };
   auto keep = [&](int h, int, int, double share) {
@@ -162,6 +165,7 @@ PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& r) {
     for (int i = 0; i < 3; ++i) rel[i] -= along * axis[i];
     if (dot(rel, rel) > r.reach * r.reach) return false;
     length += distance(x, at);
+    if (length + distance(x, to) > longest) return false;
     for (int i = 0; i < 3; ++i) at[i] = x[i];
     if (r.keep_crossings) cut.crossings.push_back({h, share});
     return true;

@@ -1,5 +1,6 @@
 // Plane cuts of a mesh through two surface points.
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "path_resample.h"
@@ -19,6 +20,7 @@ struct CutRequest {
   int side;                // 0: leaves `from` towards `to`, 1: the other way round
   double reach;            // distance from the segment between the ends at which a cut is given up
   bool keep_crossings;
+  double longest = INFINITY;  // a cut that will be longer than this is given up
 };
 
 PlaneCut plane_cut(const Triangulation& mesh, const CutRequest& request);

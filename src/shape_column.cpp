@@ -55,7 +55,7 @@ Column fit_column(const Triangulation& mesh, const SurfacePoint& from, const Sur
     double angle = settings.angles == 1 ? -settings.limit
                                         : settings.limit * (2.0 * i / (settings.angles - 1) - 1);
     plane_normal(axis, angle, normal);
-    PlaneCut cut = plane_cut(mesh, {a, b, normal, side(normal), settings.reach * axis.span, false});
+    PlaneCut cut = plane_cut(mesh, {a, b, normal, side(normal), settings.reach * axis.span, false, best.length});
     if (i == (settings.angles - 1) / 2) middle = cut;
     if (!(cut.length < best.length)) continue;
     best = cut;

@@ -239,3 +239,17 @@ test_that("the demo's eye sockets keep to the lower lid, as those of the face's 
     expect_lt(max(height), 0.5)
   }
 })
+
+test_that("cuts that are given up are those that are too long, whatever the order of the angles", {
+  ball <- Rvcg::vcgSphere(3)
+  scan <- walkable(ball)
+  ends <- located_ends(ball, scan, c(1, 0, 0), c(0, 1, 0.3))
+  angle <- seq(-1.5, 1.5, length.out = 31)
+  whole <- measure_cuts(ends, angle, rep(0L, 31), Inf)
+  some <- measure_cuts(ends, rev(angle), rep(0L, 31), Inf, longest = 1.02)[31:1, ]
+  allowed <- whole$length <= 1.02 * min(whole$length)
+  expect_gt(sum(allowed), 3)
+  expect_gt(sum(is.na(some$length)), 10)
+  expect_identical(some$length[allowed], whole$length[allowed])
+  expect_identical(unique(some$end[is.na(some$length)]), "too far")
+})

@@ -208,3 +208,19 @@ test_that("arguments are checked", {
   expect_crestline_error(ridge_line(surface_of(bowed), 0, 2), "`scale`")
   expect_crestline_error(ridge_line(surface_of(bowed), 1, 2, kernel = -1), "`kernel`")
 })
+
+test_that("the last steps are taken, though their rise is lost in rounding", {
+  # A criterion of size 1 whose values tell places apart to about the root of the rounding only
+  s <- seq(0.05, 9.95, 0.1)
+  at <- expand.grid(s = s, d = seq(-2, 2, 0.1))
+  columns <- c(list(vertex = seq_len(nrow(at))), as.list(at), list(inside = rep(TRUE, nrow(at))))
+  window <- new_path_coordinates(columns, 10, 2, list(key = NULL, id = NULL))
+  for (shift in c(0.1, 0.3, 0.5)) {
+    strength <- exp(-(at$d - shift * sin(at$s / 2))^2)
+    line <- ridge_line(curvature_surface(window, strength), scale = 0.5, radius = 2)
+    expect_true(line$converged)
+    expect_lt(line$gradient, 1e-9)
+    again <- ridge_line(curvature_surface(window, strength * (1 + 1e-15)), scale = 0.5, radius = 2)
+    expect_lt(max(abs(line$alpha - again$alpha)), 1e-12)
+  }
+})
