@@ -57,8 +57,9 @@
 #'
 #' **Few regroupings.** A p-value by permutation is at least 1 / (`n_perm` + 1), and with all
 #' regroupings at least 1 over their number. With five specimens in each of two groups there are 252
-#' regroupings; two-sided tests have p of at least 2/252 = 0.008. `print()` gives the p-values of
-#' single components without adjustment; `as.data.frame()` has `p_adjusted`.
+#' regroupings; two-sided tests have p of at least 2/252 = 0.008. `print()`, `summary()` and
+#' `plot()` give p-values of single components that are adjusted for their number; `as.data.frame()`
+#' has both, `p_value` and `p_adjusted`.
 #'
 #' **Effects.** The distance between two sample means is above 0 even without a difference. `effect`
 #' of the mean shape is therefore this distance less its mean over the regroupings. `effect` of size

@@ -48,6 +48,8 @@
 #'   the curvature of another mesh.
 #' @section Errors: of class `crestline_error`: `radius` is not a positive number, is larger than
 #'   half the diagonal of the mesh, or is so small that no vertex can be fitted.
+#' @section Warnings: of class `crestline_wide_radius`: `radius` exceeds 0.2 of the size of the
+#'   mesh. It is most likely in another unit.
 #' @template glossary
 #' @templateVar where section 2
 #' @template paper
@@ -67,6 +69,7 @@ curvature <- function(mesh, radius, order = "adaptive",
   settings <- fit_settings(radius, order, shrinkage, points_per_term, one_sided, widen)
   threads <- check_threads(threads)
   check_radius(radius, whole)
+  warn_wide_radius(radius, whole)
   n <- ncol(mesh$vb)
   targets <- vertex_indices(vertices, n)
   out <- curvature_at(mesh_graph(mesh), targets, settings, threads)
@@ -254,6 +257,20 @@ check_radius <- function(radius, mesh) {
                           "centimetres?)."),
                     stage = "curvature")
   }
+}
+
+#' Warn of a radius, or a reach, that is a great part of the mesh: most likely of another unit
+#'
+#' @param share Greatest radius, as a share of the object's size: on whole faces 10 mm are 0.03 to
+#'   0.04 of it, and in a mesh in cm ten times that.
+#' @noRd
+warn_wide_radius <- function(radius, mesh, name = "radius", share = 0.2) {
+  size <- if (inherits(mesh, "specimen")) specimen_size(mesh) else mesh_diagonal(mesh)
+  if (radius <= share * size) return(invisible())
+  crestline_warn(sprintf("`%s` is %.4g, which is %.2g times the size of the mesh, %.4g.", name,
+                         radius, radius / size, size),
+                 "Is it in the unit of the mesh? Read the specimen with `rescale` (10: cm to mm).",
+                 stage = "curvature", id = mesh_of(mesh)$id, class = "crestline_wide_radius")
 }
 
 abort_radius <- function(neighbours, radius) {

@@ -61,6 +61,7 @@ check_landmarks <- function(landmarks, mesh, id, tolerance, midline, piece = NUL
   away <- row_lengths(as.matrix(located[c("x", "y", "z")]) - landmarks)
   if (any(away > tolerance * size,
           na.rm = TRUE)) refuse_off_surface(landmarks, away, mesh, id, tolerance, size)
+  warn_far_landmarks(stats::setNames(away, rownames(landmarks)), size, tolerance, id)
   slips <- slips_by_name(landmarks, located, mesh, midline)
   warn_exchanged(slips, id)
   moved <- sum(away > 1e-6 * size, na.rm = TRUE)
@@ -83,7 +84,9 @@ slips_by_name <- function(landmarks, located, mesh, midline) {
   exchanged_landmarks(landmarks, mean_front(mesh, located[row, ]), pairs, midline)
 }
 
-refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
+#' @param little Share of the size up to which a landmark is only a little off its surface.
+#' @noRd
+refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size, little = 0.03) {
   off <- which(away > tolerance * size)
   off <- off[order(-away[off])]
   fit <- if (2 * length(off) > sum(!is.na(away))) {
@@ -97,12 +100,31 @@ refuse_off_surface <- function(landmarks, away, mesh, id, tolerance, size) {
       sprintf("They would lie on it %s: change them so.", fit), id
     )
   }
+  needed <- signif(max(away[off]) / size * 1.05, 2)
   refuse_landmarks(
-    sprintf("off the surface by more than %s: %s.", signif(tolerance * size, 3), shorten(named)),
+    sprintf("off the surface by more than %s, %s of its size (`tolerance`): %s.",
+            signif(tolerance * size, 3), format(signif(tolerance, 3)), shorten(named)),
     paste0(if (2 * length(named) > nrow(landmarks)) "Do they belong to this scan? If so, place" else
              "Place",
-           paste0(" them anew, set them to NA, or, where they are only a little off, give a ",
-                  "greater `tolerance`.")), id
+           " them anew, or set them to NA",
+           if (needed <= little) sprintf("; if that is right, give `tolerance = %g`", needed),
+           "."), id
+  )
+}
+
+#' Warn of landmarks that a great tolerance let pass, and that now are elsewhere
+#' @param usual Share of the size up to which nothing is said.
+#' @noRd
+warn_far_landmarks <- function(away, size, tolerance, id, usual = 0.01) {
+  far <- which(away > usual * size)
+  if (!length(far)) return(invisible())
+  far <- far[order(-away[far])]
+  crestline_warn(
+    sprintf("moved onto the surface by more than %s of its size, as `tolerance` is %s: %s.", usual,
+            format(signif(tolerance, 3)),
+            shorten(sprintf("%s (by %.3g)", names(away)[far], away[far]))),
+    "Look at them with plot(specimen); place them anew if they are wrong.", stage = "landmarks",
+    id = id, class = "crestline_far_landmarks"
   )
 }
 

@@ -52,7 +52,9 @@
 #' @section Errors: of class `crestline_path_error`: no plane cut joins the points; a closed path
 #'   has no `via`.
 #' @section Warnings: of class `crestline_rival_path`: another optimum is nearly as good; the
-#'   warning names both angles.
+#'   warning names both angles. Of class `crestline_wide_radius`: the radius exceeds `widest` times
+#'   the distance of the ends (see [path_settings()]), or much of the mesh (see [curvature()]). It
+#'   is most likely in another unit.
 #' @template glossary
 #' @templateVar where section 3.1
 #' @template paper
@@ -89,9 +91,33 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
   ends <- located_ends(specimen, scan, from, to, route$via)
   found <- if (route$path == "crest") find_crest else find_reference
   path <- in_context(found(ends, type, strength, radius, settings), scan$id)
+  if (type != "plane") {
+    doubt <- radius_doubt(radius, ends, path, settings$widest)
+    if (is.na(doubt)) warn_wide_radius(radius, specimen) else
+      crestline_warn(paste0(doubt, "."), wide_radius_remedy, stage = "reference path", id = scan$id,
+                     class = "crestline_wide_radius")
+  }
   warn_rival(path, ends$names, scan$id, settings$rival)
   path
 }
+
+#' Why a radius seems to be in another unit than the mesh, NA where it does not
+#'
+#' A ball that is as large as the distance of a path's ends holds more than the path's feature.
+#' @param path From one end to the other; a path of least cost may be much longer than its ends are
+#'   apart.
+#' @param widest As in [path_settings()].
+#' @noRd
+radius_doubt <- function(radius, ends, path, widest) {
+  bowed <- is.null(ends$span) || !is.null(ends$via)
+  span <- if (bowed) attr(path, "length") else ends$span
+  if (radius <= widest * span) return(NA_character_)
+  sprintf("its radius, %.3g, is %.2g times %s, %.3g, as of another unit than the mesh", radius,
+          radius / span, if (bowed) "its length" else "the distance of its ends", span)
+}
+
+wide_radius_remedy <- paste("Give `radius` and `width` in the unit of the mesh, or read the",
+                            "specimen with `rescale` (10 turns cm into mm).")
 
 #' What the dots of [reference_path()] and [ridge_curve()] change
 #'

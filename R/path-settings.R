@@ -43,6 +43,9 @@
 #'   determined, in radii.
 #' @param loop_longest A closed curve longer than this is not determined, in greatest distances of
 #'   its stops.
+#' @param widest Greatest radius, as a multiple of the distance of the two ends (on a path with
+#'   `via`, of its length). A wider one gives a warning, as it is most likely in another unit than
+#'   the mesh. Of the ridges of [face_scheme()] the widest has 0.33.
 #' @return List of class `path_settings`.
 #' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
 #'   of range.
@@ -58,7 +61,7 @@ path_settings <- function(..., reach = 0.5, longest = 1.25, spacing = 0.25, angl
                           smoothing_step = 0.2, moved = 0.5, corridor = 2, block = 1,
                           block_free = 3, block_cost = 10, rival_reach = 1.5, twice = 0.05,
                           twice_reach = 1, twice_apart = 4, loop_shortest = 6,
-                          loop_longest = 4.5) {
+                          loop_longest = 4.5, widest = 0.75) {
   new_settings("path_settings", check_path_settings, list(...))
 }
 
@@ -71,7 +74,7 @@ check_path_settings <- function(settings) {
   }
   for (name in c("floor", "smoothing", "smoothing_step", "moved", "corridor", "block", "block_free",
                  "block_cost", "rival_reach", "twice_reach", "twice_apart", "loop_shortest",
-                 "loop_longest")) {
+                 "loop_longest", "widest")) {
     check_number(settings[[name]], name, lower = 0, open = TRUE)
   }
   check_number(settings$twice, "twice", lower = 0, upper = 1)

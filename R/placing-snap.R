@@ -33,7 +33,8 @@
 #'
 #'   The specimen is not changed. Take the places over by `specimen$landmarks[rownames(found), ] <-
 #'   as.matrix(found[c("x", "y", "z")])`.
-#' @section Warnings: of class `crestline_unsnapped`: points that found none, by name.
+#' @section Warnings: of class `crestline_unsnapped`: points that found none, by name. Of class
+#'   `crestline_wide_radius`: `radius` or `reach` is most likely in another unit, see [curvature()].
 #' @section Errors: of class `crestline_error`: there is no landmark of a name, or an argument is
 #'   wrong.
 #' @template glossary
@@ -62,6 +63,8 @@ snap <- function(mesh, points = NULL, to = c("ridge", "valley", "cap", "cup", "s
   radius <- check_number(radius, "radius", 0, open = TRUE)
   reach <- check_number(reach, "reach", 0, open = TRUE)
   source <- known_curvature(NULL, mesh, radius, threads, "adaptive cubic")
+  warn_wide_radius(radius, mesh)
+  warn_wide_radius(reach, mesh, "reach")
   found <- lapply(seq_len(nrow(at)), function(i) {
     if (!is.na(place$face[i])) snapped_place(scan, place[i, ], to, radius, reach, faint, source)
   })

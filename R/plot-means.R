@@ -93,7 +93,12 @@ rgl_overlay <- function(meshes, colour, opacity, view, ...) {
   add_ids(scene, ids)
 }
 
+#' The p-value of a test as print() gives it: that of a single component is adjusted for their number
+#' @noRd
 p_value_of <- function(x, level, test) {
-  own <- x$tests$p_value[which(x$tests$level == level & x$tests$test == test)]
-  if (length(own)) sprintf("p = %s", format.pval(own, digits = 2, eps = 1e-4))
+  single <- grepl("^PC[0-9]+$", test)
+  own <- x$tests[[if (isTRUE(single)) "p_adjusted" else "p_value"]]
+  own <- own[which(x$tests$level == level & x$tests$test == test)]
+  if (!length(own)) return(NULL)
+  sprintf("%sp = %s", if (single) "adjusted " else "", format.pval(own, digits = 2, eps = 1e-4))
 }

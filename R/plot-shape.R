@@ -54,6 +54,7 @@ plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colour
     # Values of all surface points, as write_mesh() takes them: those that have triangles.
     every <- length(surface) > 1 && length(surface) == sum(x$points$level == "surface")
     if (every) surface <- surface[attr(model, "row")]
+    if (identical(engine, "picture") && is.null(given$around)) more$around <- shown_places(x, model)
     scene <- do.call(draw_values, c(list(model, surface, look$edges), more), quote = TRUE)
   } else {
     check_class(specimen, "specimen", "specimen", "specimen() or read_specimen()")
@@ -72,6 +73,15 @@ plot.shape <- function(x, specimen = NULL, parts = "model", colour = kind_colour
                        "black", halo = "white")
   if (legend && !is.null(specimen)) draw_key(scene, unlist(colour), width = look$width)
   shown(scene)
+}
+
+#' All that a picture of a shape's own surface is to hold, n x 3: curves may rise above the patches
+#' @noRd
+shown_places <- function(x, model) {
+  paths <- lapply(Filter(Negate(is.null), x$paths), columns_of, c("x", "y", "z"))
+  marks <- coords(x, "landmarks")
+  rows <- c(list(t(model$vb[1:3, ]), marks[!is.na(marks[, 1]), , drop = FALSE]), paths)
+  unname(do.call(rbind, lapply(rows, unname)))
 }
 
 #' How the curves and points of a shape look

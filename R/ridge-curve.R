@@ -50,6 +50,9 @@
 #'   * `determined`: whether curvature determines the curve; `NA` for plane curves and without
 #'     standard errors. If it is `FALSE`, the plane path (`reference`, or `type = "plane"`) is the
 #'     safer choice. `reason` gives the cause:
+#'     * the radius exceeds `settings$widest` times the distance of the landmarks, as it does where
+#'       it is in another unit than the mesh;
+#'     * the curve is longer than `settings$detour` times that distance;
 #'     * the median standard error exceeds `settings$undetermined` radii;
 #'     * the curve runs along the edge of the window;
 #'     * the curvature is fainter than `settings$faint`;
@@ -105,7 +108,7 @@
 #'   longer. This bias is not in `length_se`, nor is the bias of curvature at a wide radius in
 #'   `strength_se`.
 #' @section Warnings: of class `crestline_undetermined`: curvature does not determine the curve. The
-#'   warning of [reference_path()] can occur too.
+#'   warning of a rival by [reference_path()], and of a wide radius by [curvature()], can occur too.
 #' @templateVar where section 3
 #' @template paper
 #' @examples
@@ -146,6 +149,7 @@ ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane")
   })
   warn_rival(curve$reference, c(curve$from, curve$to), id)
   warn_undetermined(curve)
+  if (type != "plane" && !isFALSE(curve$determined)) warn_wide_radius(curve$radius, specimen)
   curve
 }
 
@@ -338,30 +342,47 @@ judge_curve <- function(job, fit) {
     ifelse(c(job$trust[1] > 0, job$trust[2] < 1), NA_real_, fit$beside)
   se <- if (is.null(fit$line$se)) NA_real_ else
     stats::median(fit$line$se[-c(1, length(fit$line$se))])
-  limit <- job$settings$undetermined * job$radius
-  fault <- if (job$route == "crest") {
-    crest_fault(fit$path, job$ends, job$radius, job$search)
-  } else {
-    NA_character_
+  reasons <- c(radius_doubt(job$radius, job$ends, fit$reference, job$settings$widest),
+               if (!fit$found) fit$reason else c(course_fault(job, fit), faint_fault(job, fit, se)))
+  reason <- c(reasons[!is.na(reasons)], NA_character_)[1]
+  list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
+       reason = reason, beside = beside)
+}
+
+#' What is wrong with where a curve runs, NA where nothing
+#' @noRd
+course_fault <- function(job, fit) {
+  if (job$route == "crest") {
+    fault <- crest_fault(fit$path, job$ends, job$radius, job$search)
+    if (!is.na(fault)) return(fault)
+  } else if (is.null(job$drawn)) {
+    length <- attr(fit$path, "length")
+    if (length > job$settings$detour * job$ends$span) {
+      return(sprintf("it is %.2g times as long as its ends are apart, more than %g",
+                     length / job$ends$span, job$settings$detour))
+    }
   }
-  reason <- if (!fit$found) {
-    fit$reason
-  } else if (!is.na(fault)) {
-    fault
-  } else if (fit$line$at_bound) {
-    "it runs along the edge of the window"
-  } else if (fit$scale * job$radius < job$settings$faint) {
+  if (fit$line$at_bound) "it runs along the edge of the window" else NA_character_
+}
+
+#' What is wrong with the curvature that a curve follows, NA where nothing
+#'
+#' @param se Its median standard error.
+#' @noRd
+faint_fault <- function(job, fit, se) {
+  limit <- job$settings$undetermined * job$radius
+  strength <- fit$scale * job$radius
+  if (strength < job$settings$faint) {
     sprintf("the curvature by its reference path is faint: times the radius it is %.3g, below %.3g",
-            fit$scale * job$radius, job$settings$faint)
+            strength, job$settings$faint)
   } else if (is.na(se) && job$settings$error) {
     "its standard error is not known: no strength in its window depends on the heights"
   } else if (!is.na(se) && se > limit) {
-    sprintf("its median standard error, %.3g, exceeds %.3g", se, limit)
+    sprintf("its median standard error, %.3g, exceeds %.3g, which is %g radii", se, limit,
+            job$settings$undetermined)
   } else {
     NA_character_
   }
-  list(se = se, determined = if (!is.na(reason)) FALSE else if (is.na(se)) NA else TRUE,
-       reason = reason, beside = beside)
 }
 
 warn_undetermined <- function(curve) {
@@ -369,7 +390,8 @@ warn_undetermined <- function(curve) {
   crestline_warn(
     sprintf("the %s from %s to %s is not determined by curvature: %s.", curve$type, curve$from,
             curve$to, curve$reason),
-    "Use the shortest plane cut (type = \"plane\"), or another radius.",
+    if (grepl("another unit than the mesh", curve$reason, fixed = TRUE)) wide_radius_remedy else
+      "Use the shortest plane cut (type = \"plane\"), or another radius.",
     stage = "ridge curve", id = curve$id, class = "crestline_undetermined"
   )
 }

@@ -60,6 +60,13 @@
 #'   as not determined by curvature.
 #' @param beside Greatest distance of a landmark from the ridge or valley that ends on it, in radii.
 #'   Beyond it the landmark counts as beside its crest, see `beside` of [ridge_curve()].
+#' @param widest Greatest radius, as a multiple of the distance of the two ends (on a curve with
+#'   `via`, of its reference path's length). With a wider one the curve counts as not determined: the
+#'   radius is most likely in another unit than the mesh. Of the ridges of [face_scheme()] the
+#'   widest has 0.33.
+#' @param detour Greatest length of a curve, as a multiple of the distance of its ends, beyond which
+#'   it counts as not determined. Curves of least cost may be longer. The ridges of [face_scheme()]
+#'   have up to 1.3.
 #' @param error Whether to compute standard errors.
 #' @param passes Number of passes. Each pass takes the curve of the pass before as its reference
 #'   path. `NULL`: one pass and a share of a second one, by `second`.
@@ -83,7 +90,7 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
                            kernel_vertices = 400, second = 0.5, second_gain = 0.05,
                            second_whole = 0.6, mix = Inf, noise = NA, longest = 1.25,
                            inflation = 1.5, undetermined = 0.2, faint = 0.15, beside = 0.3,
-                           error = TRUE, passes = NULL) {
+                           widest = 0.75, detour = 3, error = TRUE, passes = NULL) {
   preset <- check_choice(preset, c("crestline", "one pass", "paper"), "preset")
   single <- list(kernel = 0, second = 0)
   paper <- list(order = "forced", strength = "principal", wrong_sign = "drop", cap = Inf,
@@ -97,6 +104,7 @@ ridge_settings <- function(preset = c("crestline", "one pass", "paper"), ...,
 check_settings <- function(settings) {
   positive <- c("cap", "window", "vertices", "anisotropy", "df", "lambda", "core", "bound", "step",
                 "tolerance", "longest", "inflation", "undetermined", "faint", "beside",
+                "widest", "detour",
                 "kernel_most", "kernel_least", "kernel_vertices", "second_gain", "second_whole",
                 "mix")
   for (name in positive) {

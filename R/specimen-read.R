@@ -24,7 +24,9 @@
 #' @param id Name of the specimen, one string. NULL: the file's name without its extension (and
 #'   without `.gz`).
 #' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` renames
-#'   the landmark `prn` of the file to `pn`. A warning lists the names that the specimen does not
+#'   the landmark `prn` of the file to `pn`. A file without names, such as most TPS files, gives the
+#'   landmarks the numbers "1", "2", ... as names: there `names` may also be a plain character vector
+#'   of the names of all landmarks, in the order of the file. A warning lists the names that the specimen does not
 #'   have; if it has none of them, that is an error.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`; they name the specimen and the
@@ -37,10 +39,9 @@
 #' @export
 read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) {
   check_given()
-  # New names of landmarks, by the old ones
   if (!is.null(names)) {
     whole <- function(x) is.character(x) && !anyNA(x) && all(nzchar(x)) && !anyDuplicated(x)
-    if (!whole(names) || !whole(names(names)) || is.object(names)) {
+    if (!whole(names) || is.object(names) || !(is.null(names(names)) || whole(names(names)))) {
       refuse_argument("names", names, "Give new names by the old ones, each once: c(prn = \"pn\").")
     }
   }
@@ -53,19 +54,40 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   id <- check_id(id)
   beside <- if (is.character(landmarks) && length(landmarks) == 1 &&
                 is.null(dim(landmarks))) landmarks else NA_character_
-  # Landmarks with some names changed; a new name must not be another landmark's
-  own <- as_landmarks(landmarks_of(landmarks, id), id)
-  name <- rownames(own)
+  own <- renamed_landmarks(as_landmarks(landmarks_of(landmarks, id), id), names, id)
+  from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
+}
+
+#' Landmarks with some names changed; a new name must not be another landmark's
+#'
+#' @param names By the old names, or all in the order of landmarks that have numbers.
+#' @noRd
+renamed_landmarks <- function(landmarks, names, id) {
+  name <- rownames(landmarks)
+  if (!length(name)) return(landmarks)
+  if (!is.null(names) && is.null(names(names))) {
+    if (!identical(name, as.character(seq_along(name))) || length(names) != length(name)) {
+      refuse_landmarks(
+        sprintf("`names` has %s without old ones, for %s.", amount(length(names), "name"),
+                amount(length(name), "landmark")),
+        sprintf(paste("Name each by its old name, as in c(%s = \"%s\"). Names in the order of the",
+                      "file suit a file without names, all landmarks of it."),
+                if (make.names(name[1]) == name[1]) name[1] else paste0("`", name[1], "`"),
+                names[1]), id
+      )
+    }
+    names <- stats::setNames(names, name)
+  }
   changed <- name %in% names(names)
-  if (length(name)) check_new_names(names, name, id)
+  check_new_names(names, name, id)
   name[changed] <- names[name[changed]]
   twice <- unique(name[duplicated(name)])
   if (length(twice)) {
     refuse_landmarks(sprintf("`names` gives two landmarks the name %s.", shorten(twice)),
                      "Leave out the landmark that has the name already, or rename it too.", id)
   }
-  rownames(own) <- name
-  from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
+  rownames(landmarks) <- name
+  landmarks
 }
 
 #' Warn of new names for landmarks that are not there, as a scan may lack one; refuse them where

@@ -19,7 +19,7 @@
 #'   away from the centroid; the limit is -0.4 (face scans have 0.55 to 0.85). "keep" leaves all
 #'   pieces as they are; use it for a small or hollow surface. "flip" turns all pieces.
 #' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's
-#'   size (0.01 is 3 to 4 mm on a face). Closer landmarks are moved onto the surface. Farther
+#'   size (0.01 is 3 to 4 mm on a face), at most 0.25. Closer landmarks are moved onto the surface. Farther
 #'   landmarks are an error. The size is that of the part where most of the surface lies, on the
 #'   pieces that carry the landmarks. On a face it is about the diagonal of the bounding box. A
 #'   platform or a stray vertex does not change it.
@@ -55,6 +55,8 @@
 #'   * `crestline_loose_triangles`: triangles touch no other;
 #'   * `crestline_seam`: borders lie beside one another;
 #'   * `crestline_double_skin`: the surface is double, with one skin very close to the other;
+#'   * `crestline_far_landmarks`: with a greater `tolerance`, landmarks were moved onto the surface
+#'     by more than 0.01 of the size;
 #'   * `crestline_bare_piece`: a piece with more than 20 % of the triangles has no landmark, while
 #'     another piece has some. It may be a second object of the same kind. [find_landmarks()] warns
 #'     of it too.
@@ -79,7 +81,7 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   rescale <- check_number(rescale, "rescale", lower = 0, open = TRUE)
   midline <- check_names(midline, "midline", null = TRUE)
   id <- check_id(id)
-  tolerance <- check_number(tolerance, "tolerance", lower = 0)
+  tolerance <- check_tolerance(tolerance)
   landmarks <- as_landmarks(landmarks, id) * rescale
   door <- check_mesh(rescaled_mesh(mesh, rescale), id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
@@ -99,6 +101,19 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   )
   warn_bare_piece(made)
   made
+}
+
+#' A share of the object's size, which is easily taken for a length
+#' @param most Greatest share: a landmark so far away is on no surface.
+#' @noRd
+check_tolerance <- function(tolerance, most = 0.25) {
+  number <- check_number(tolerance, "tolerance", lower = 0)
+  if (number > most) {
+    refuse_argument("tolerance", tolerance,
+                    sprintf(paste("It is a share of the object's size, not a length: 0.01 is 3 to",
+                                  "4 mm on a face. Give at most %g."), most))
+  }
+  number
 }
 
 #' A mesh in another unit; what is no mesh is left for the door to refuse

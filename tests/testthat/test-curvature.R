@@ -143,8 +143,8 @@ test_that("the ball holds exactly the vertices joined inside it, also where the 
   at <- with_seed(3, sort(sample(ncol(mesh$vb), 40)))
   caught <- 0
   for (radius in c(2.5, 5, 9)) {
-    curved <- curvature(mesh, radius, order = "quadratic", vertices = at,
-                        points_per_term = 1, widen = 1)
+    curved <- suppressWarnings(curvature(mesh, radius, order = "quadratic", vertices = at,
+                                         points_per_term = 1, widen = 1))
     wanted <- vapply(at, connected_ball, 0L, mesh = mesh, radius = radius)
     expect_identical(curved$neighbours[at], wanted)
     plain <- vapply(at, function(v) sum(colSums((mesh$vb[1:3, ] - mesh$vb[1:3, v])^2) <= radius^2),
@@ -179,7 +179,8 @@ test_that("points on a line, and a vertex without triangles, have the other reas
   it <- rbind(1:18, 2:19, 3:20)
   flat <- rgl::mesh3d(vertices = cbind(strip, ball_mesh(2)$vb + c(90, 0, 0, 0)),
                       triangles = cbind(it, ball_mesh(2)$it + 20))
-  curved <- curvature(flat, 30, vertices = 1:40)
+  expect_warning(curved <- curvature(flat, 30, vertices = 1:40), "times the size of the mesh",
+                 class = "crestline_wide_radius")
   expect_match(curved$reason[1:20], "nearly in a line, or no normal")
   expect_false(anyNA(curved$k1[21:40]))
 })

@@ -54,10 +54,19 @@ test_that("a landmark 5 mm off a face is refused by name, a nearer one put on it
   x["pn", 3] <- x["pn", 3] + 5
   expect_crestline_error(specimen(egg(), x, id = "e2"),
                          c("e2", "off the surface", "pn (by 5", "tolerance"), id = "e2")
-  s <- specimen(egg(), x, tolerance = 0.1)
+  # The error gives the value that would do, if the landmark is only a little off
+  needed <- sub(".*`tolerance = ([0-9.]+)`.*", "\\1",
+                rlang::catch_cnd(specimen(egg(), x), "error")$remedy)
+  expect_warning(s <- specimen(egg(), x, tolerance = as.numeric(needed)), "pn [(]by 5[)]",
+                 class = "crestline_far_landmarks")
   expect_equal(unname(s$landmarks["pn", 1:2]), c(0, 0), tolerance = 0.1)
   x["pn", 3] <- 61
   expect_lt(specimen(egg(), x)$landmarks["pn", 3], 60.01)
+  # A tolerance is a share, and no length
+  expect_crestline_error(specimen(egg(), x, tolerance = 5), c("`tolerance` is 5", "not a length"))
+  x["pn", 3] <- 100
+  far <- expect_crestline_error(specimen(egg(), x), "0.01 of its size")
+  expect_no_match(far$remedy, "tolerance")
 })
 
 test_that("another unit or frame is named with the factor that would fit", {

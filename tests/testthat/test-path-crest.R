@@ -58,7 +58,7 @@ test_that("moved, turned and scaled, the path is the same", {
   moved <- ring$mesh
   moved$vb[1:3, ] <- 10 * (turn %*% ring$mesh$vb[1:3, ]) + c(5, -3, 40)
   other <- specimen(moved, 10 * ring$landmarks %*% t(turn) + rep(c(5, -3, 40), each = 3),
-                    id = "moved", outward = "keep", tolerance = 1)
+                    id = "moved", outward = "keep", tolerance = 0.25)
   path <- function(of, radius) {
     reference_path(of, "a", "b", "ridge", radius = radius, path = "crest", via = "c")
   }

@@ -26,7 +26,7 @@ test_that("places are put on the sheet that is joined to the path", {
   below$vb[3, ] <- -0.2
   both <- Morpho::mergeMeshes(two$mesh, below)
   both <- suppressWarnings(specimen(both, two$landmarks, id = "sheets", outward = "keep",
-                                    tolerance = 1))
+                                    tolerance = 0.25))
   scan <- walkable(both)
   path <- plane_path(both, "a", "b")
   placed <- placed_beside(scan, cbind(seq(-10, 10, 2), 0, -0.15), columns_of(path), 2)

@@ -91,6 +91,11 @@ test_that("boxes without a test of size have no p-value in their title", {
   compared <- compare_groups(data$x, data$group, n_perm = 19, progress = FALSE,
                              settings = comparison_settings(tests = "shape"))
   expect_null(p_value_of(compared, names(compared$aligned), NA))
+  # Of a single component the picture has the p-value that print() has
+  given <- list(tests = data.frame(level = "a", test = c("T2", "PC1"), p_value = 0.02,
+                                   p_adjusted = c(0.02, 0.06)))
+  expect_identical(p_value_of(given, "a", "PC1"), "adjusted p = 0.06")
+  expect_identical(p_value_of(given, "a", "T2"), "p = 0.02")
 })
 
 test_that("boxes of whole blocks show the means of the blocks", {

@@ -6,6 +6,16 @@ test_that("a shape is drawn on its specimen and as a surface", {
   expect_s3_class(draw_quietly(plot(shape, engine = "picture")), "picture_scene")
 })
 
+test_that("the picture of a shape's own surface holds its curves, which rise above it", {
+  shape <- quad_shape()
+  scene <- draw_quietly(plot(shape, engine = "picture", margin = 0))
+  paths <- do.call(rbind, lapply(shape$paths, columns_of, c("x", "y", "z")))
+  seen <- paths %*% t(scene$rotation)
+  expect_true(all(seen[, 1] >= scene$usr[1] - 1e-9 & seen[, 1] <= scene$usr[2] + 1e-9))
+  expect_true(all(seen[, 2] >= scene$usr[3] - 1e-9 & seen[, 2] <= scene$usr[4] + 1e-9))
+  expect_gt(max(seen[, 2]), max((t(shape_mesh(shape)$vb[1:3, ]) %*% t(scene$rotation))[, 2]))
+})
+
 test_that("curves have the colour of their kind, edges their own", {
   count <- function(pixels, colour) {
     rgb <- grDevices::col2rgb(colour)[, 1] / 255

@@ -345,3 +345,32 @@ test_that("a sharp ridge stands out more than a blunt one", {
   }
   expect_gt(contrast(2), contrast(0.5))
 })
+
+test_that("a radius in another unit than the mesh is no determined curve, and is said by name", {
+  ridge <- bent_ridge()
+  in_other <- function(factor, radius, width) {
+    other <- specimen(ridge$mesh, ridge$landmarks, id = "other", outward = "keep",
+                      rescale = factor)
+    ridge_curve(other, "a", "b", "ridge", radius = radius, width = width, n = 9)
+  }
+  expect_warning(wrong <- in_other(0.1, 2.6, 5), "as of another unit than the mesh",
+                 class = "crestline_undetermined")
+  expect_false(wrong$determined)
+  right <- expect_no_warning(in_other(0.1, 0.4, 0.9))
+  expect_true(right$determined)
+  # Paths say it too, before anything is traced.
+  small <- specimen(ridge$mesh, ridge$landmarks, id = "small", outward = "keep", rescale = 0.1)
+  expect_warning(reference_path(small, "a", "b", "ridge", radius = 2.6),
+                 class = "crestline_wide_radius")
+  expect_no_warning(reference_path(small, "a", "b", "ridge", radius = 0.4))
+  expect_warning(snap(small, "a", "ridge", radius = 0.4, reach = 4), "`reach` is 4",
+                 class = "crestline_wide_radius")
+})
+
+test_that("a curve much longer than its ends are apart is not determined", {
+  expect_warning(curve <- of_bent(settings = ridge_settings(detour = 1)),
+                 "times as long as its ends are apart, more than 1",
+                 class = "crestline_undetermined")
+  expect_false(curve$determined)
+  expect_true(of_bent()$determined)
+})
