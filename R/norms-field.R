@@ -157,28 +157,42 @@ inverse_diagonal <- function(inverse) {
 #' Weights of the scan: a column for each centre
 #'
 #' t = w' u has variance 1 under the field, and is the best test of a bump along the normals there.
-#' @return List: `weights` (list by radius of 3k x k matrices), `scale` (k x radii: by what the
-#'   inverse's product with a bump is divided).
+#' @return List by radius of 3k x k matrices.
 #' @noRd
 scan_weights <- function(field, radii, inverse = invert_field(field)) {
   distance <- as.matrix(stats::dist(field$points))
-  scale <- matrix(0, nrow(distance), length(radii))
-  weights <- list()
-  for (q in seq_along(radii)) {
-    height <- bump(distance, radii[q])
+  lapply(radii, function(radius) {
+    height <- bump(distance, radius)
     lesion <- rbind(height * field$normal[, 1], height * field$normal[, 2],
                     height * field$normal[, 3]) / field$sd
     w <- apply_inverse(inverse, lesion)
-    scale[, q] <- sqrt(pmax(colSums(w * lesion), 1e-300))
-    weights[[q]] <- w / rep(scale[, q], each = nrow(w))
-  }
-  list(weights = weights, scale = scale)
+    w / rep(sqrt(pmax(colSums(w * lesion), 1e-300)), each = nrow(w))
+  })
+}
+
+#' By what the inverse's product with a bump is divided in these weights: k x radii
+#'
+#' Of the bumps B and the inverse M along the normals alone, the root of the diagonal of B'MB.
+#' @noRd
+scan_scale <- function(field, radii, inverse = invert_field(field)) {
+  k <- nrow(field$points)
+  along <- as.vector(field$normal) / field$sd
+  normal <- matrix(along, k)
+  solved <- Reduce(`+`, lapply(1:3, function(d) {
+    normal[, d] * inverse$solved[(d - 1) * k + seq_len(k), , drop = FALSE]
+  }))
+  m <- chol2inv(inverse$root) * tcrossprod(normal) - solved %*% inverse$inner %*% t(solved)
+  distance <- as.matrix(stats::dist(field$points))
+  vapply(radii, function(radius) {
+    height <- bump(distance, radius)
+    sqrt(pmax(colSums(height * (m %*% height)), 1e-300))
+  }, numeric(k))
 }
 
 #' The scan's statistics without its weights: of many faces the shorter way
 #'
 #' @param u 3k x n.
-#' @param scale Of [scan_weights()].
+#' @param scale Of [scan_scale()].
 #' @return List by radius of n x k.
 #' @noRd
 scan_statistics <- function(field, u, radii, scale, inverse) {

@@ -164,7 +164,7 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   parts <- fit_parts(made, seq_along(people$age), plan)
   if (share) check_lone(parts, people, names(sample))
   scales <- lapply(parts[c("surface", "asymmetry")], function(field) {
-    if (!is.null(field)) scan_weights(field, plan$radii)$scale
+    if (!is.null(field)) scan_scale(field, plan$radii)
   })
   held <- cross_validated(made, plan, scales, progress)
   norms <- new_shape_norms(made, parts, held, plan, settings)

@@ -12,6 +12,9 @@ heal_face <- function(field, found, age, sex, missing, alpha, most = 5) {
   wider <- rep(1, length(out))
   healed <- list(u = found$u, variance = 0 * found$u)
   first <- scan <- scanned_face(field, found, age, sex, out)
+  # A large lesion moves the whole face as it is laid on: pose and scale over the spread of this age
+  laid <- field
+  laid$sd <- found$spread
   hits <- data.frame(at = integer(), radius = numeric(), z = numeric())
   while (scan$p <= alpha && nrow(hits) < most) {
     distance <- row_lengths(sweep(field$points, 2, field$points[scan$at, ]))
@@ -22,7 +25,7 @@ heal_face <- function(field, found, age, sex, missing, alpha, most = 5) {
     wider[disc] <- pmax(wider[disc], wider_by(field, scan, distance[disc]))
     hits <- rbind(hits, data.frame(at = scan$at, radius = scan$radius,
                                    z = scan$z[scan$at, match(scan$radius, field$scan$radii)]))
-    made <- given_the_rest(field, found$u, rep(out, 3))
+    made <- given_the_rest(laid, found$u, rep(out, 3))
     healed <- list(u = made$fit, variance = made$variance * rep(wider, 3))
     scan <- scanned_face(field, utils::modifyList(found, list(u = made$fit)), age, sex, out)
   }

@@ -137,7 +137,7 @@ straightened <- function(z, skew) {
 #' Root mean square standard errors of log size and of measurements, on their scales, by some faces
 #' @param most Number of faces that are measured with their errors.
 #' @noRd
-value_errors <- function(sample, norms, most = 50) {
+value_errors <- function(sample, norms, most = 20) {
   chosen <- unique(round(seq(1, length(sample), length.out = min(most, length(sample)))))
   each <- lapply(sample$shapes[chosen], function(shape) own_errors(shape, norms)$se)
   squares <- rowMeans(do.call(cbind, each)^2, na.rm = TRUE)

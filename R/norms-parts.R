@@ -36,7 +36,7 @@ field_scores <- function(field, y, age, group) {
 
 #' What a norm of other faces says of some: no list of it is kept
 #'
-#' @param scales List `surface`, `asymmetry` of scales of [scan_weights()].
+#' @param scales List `surface`, `asymmetry` of [scan_scale()].
 #' @return List: `z` (n x m: of log size, measurements, scores), `map` (n: largest |z| along the
 #'   normals), `surface`, `asymmetry`: lists of `t` (list by radius of n x k), `rough` (n: median
 #'   squared residual from what the neighbours make expected); of `surface` also `u` (n x 3k).

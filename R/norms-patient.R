@@ -50,7 +50,7 @@ prepared_field <- function(norms, name) {
   if (is.null(norms$cache[[name]])) {
     field <- norms[[name]]
     field$inverse <- invert_field(field)
-    field$weights <- scan_weights(field, field$scan$radii, field$inverse)$weights
+    field$weights <- scan_weights(field, field$scan$radii, field$inverse)
     field$own_variance <- 1 / inverse_diagonal(field$inverse)
     assign(name, field, norms$cache)
   }

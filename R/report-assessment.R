@@ -144,6 +144,8 @@ assessment_limits <- function(x) {
           "another population, or another scanner, it may be wrong."),
     paste("Small or flat changes are missed. How often is only known from simulated faces; on real",
           "faces more is missed."),
+    paste("The pictures compare places in the direction that the surface faces. How far places lie",
+          "along the surface is not judged, as it depends on how points were placed."),
     paste("An open mouth, an expression, hair, a plaster or a bad scan look like differences of",
           "shape."),
     paste("The shape expected at a place is what people with such surroundings have there. It is",

@@ -20,8 +20,8 @@ assessment_maps <- function(x, span = 6) {
          " This finds small changes that the other map cannot see.", xyz, points$z_scan, span,
          x$limits[["scan"]]),
     card("Expected shape", if (found) {
-      " The outlined places are replaced by what faces with such surroundings have there."
-    } else " No place was replaced: nothing was found that does not fit the rest.", x$healed,
+      ": the outlined places are replaced by what faces with such surroundings have there."
+    } else ": no place was replaced, as nothing was found that does not fit the rest.", x$healed,
     ring = points$healed_sd > 0 & points$assessed),
     if (asymmetric) card("Asymmetry against the norm's", " shown on one side.", xyz,
                          points$z_asymmetry, span, x$limits[["asymmetry"]])

@@ -31,13 +31,13 @@ test_that("the inverse is that of the whole matrix", {
 
 test_that("the scan's statistic has variance 1, and does not see pose and scale", {
   field <- flat_field()
-  w <- scan_weights(field, 12)$weights[[1]]
+  w <- scan_weights(field, 12)[[1]]
   variance <- colSums(w * (dense_correlation(field) %*% w))
   expect_equal(unname(variance), rep(1, 30), tolerance = 1e-6)
   pose <- pose_directions(field)
   expect_lt(max(abs(crossprod(w, pose))), 1e-3)
   u <- with_seed(3, matrix(stats::rnorm(180), 90))
-  scale <- scan_weights(field, 12)$scale
+  scale <- scan_scale(field, 12)
   short <- scan_statistics(field, u, 12, scale, invert_field(field))[[1]]
   expect_equal(short, crossprod(u, w), ignore_attr = TRUE)
   # No other test of that bump has a greater expectation.
