@@ -192,9 +192,9 @@ check_lone <- function(parts, people, ids, lone = 5) {
   alone <- which(effective < lone)
   if (!length(alone)) return(invisible())
   crestline_abort(
-    sprintf(paste("a lone person would be published: at the ages of %s the mean is decided by %.2g",
-                  "faces (least %g)."), amount(length(alone), "face"), min(effective), lone),
-    sprintf("Leave out %s: sample[ids].", shorten(ids[alone], 10)), stage = "norms",
+    sprintf(paste("a lone person would be published: %s at whose age the effective number is %.2g",
+                  "(least %g)."), amount(length(alone), "face"), min(effective), lone),
+    sprintf("Leave out of `sample`: %s.", shorten(ids[alone], 10)), stage = "norms",
     class = "crestline_privacy"
   )
 }
