@@ -67,9 +67,7 @@ check_units <- function(group) {
 #' @noRd
 in_design <- function(aligned, design) {
   if (design$kind == "free") return(aligned)
-  if (inherits(aligned, "aligned_files")) {
-    refuse_in_files("means of blocks are not taken there", "Leave out `block`.")
-  }
+  if (inherits(aligned, "aligned_files")) return(units_in_files(aligned, design))
   code <- as.integer(design$block)
   count <- tabulate(code)
   flat <- t(matrix(aligned$coords, length(aligned$mean)))
@@ -105,9 +103,8 @@ design_regroupings <- function(design, n_perm, exact, permutations, seed) {
   if (prod(count) <= exact) return(list(labels = every_within(code, members), exact = TRUE))
   block <- as.integer(design$block)
   own <- order(block)
-  random <- with_seed(seed, replicate(n_perm, code[order(block, stats::runif(length(code)))]))
-  random[own, ] <- random
-  list(labels = cbind(code, random, deparse.level = 0), exact = FALSE)
+  deal <- function() replace(code, own, code[order(block, stats::runif(length(code)))])
+  list(labels = dealt_labels(code, n_perm, seed, deal), exact = FALSE)
 }
 
 #' Every regrouping within blocks, the observed one first

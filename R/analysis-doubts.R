@@ -132,16 +132,18 @@ said_of_distances <- function(aligned, limits, floor = 0.15, alike = 1e-6) {
 said_of_gaps <- function(aligned, limits) {
   gone <- aligned$missing[aligned$missing$action == "estimated", ]
   if (!nrow(gone)) return(NULL)
-  ids <- dimnames(aligned$coords)[[3]]
+  ids <- intersect(names(aligned), gone$id)
   names <- rownames(aligned$mean)
   gap <- matrix(FALSE, length(names), length(ids))
   gap[cbind(match(gone$point, names), match(gone$id, ids))] <- TRUE
-  c(said_of_shares(gap, ids, names, limits$estimated),
+  c(said_of_shares(gap, ids, names, limits$estimated, length(aligned)),
     said_of_reach(aligned$mean, gap, ids, limits$beyond))
 }
 
-said_of_shares <- function(gap, ids, names, limit) {
-  few <- names[rowMeans(gap) > limit]
+#' @param gap Points x specimens that lack some; of `n` in all.
+#' @noRd
+said_of_shares <- function(gap, ids, names, limit, n) {
+  few <- names[rowSums(gap) / n > limit]
   poor <- ids[colMeans(gap) > limit]
   share <- sprintf("more than %.0f %%", 100 * limit)
   of_points <- sprintf("estimated for %s of the specimens: %s (%s)", share, shorten(few),

@@ -31,42 +31,74 @@ configurations_in_files <- function(sample, level, triangles) {
        given = length(rows), kept = seq_along(rows))
 }
 
-#' The configurations of a block
+#' The configurations of a block, what they lack put where the spline from the mean takes it
 #' @noRd
 level_block <- function(given, i) {
   coords <- read_block(given$files, i, given$rows[given$kept])
   dimnames(coords)[[1]] <- given$names[given$kept]
-  coords
+  if (is.null(given$filled_from)) return(coords)
+  with_spline_places(coords, given$filled_from, gaps(coords))
 }
 
 over_blocks <- function(files, f) lapply(seq_len(n_blocks(files)), f)
 
-#' The same without points that are missing, and with a reference
+#' The same without points that are missing, or with what they are put in from, and with a reference
+#' @return `given` with `missing` (data frame `id`, `point`, `action`), and perhaps `filled_from`
+#'   (k x d: the mean from which missing points are put in).
 #' @noRd
 complete_in_files <- function(given, missing) {
+  dim <- length(given$files$axes)
   gone <- do.call(rbind, over_blocks(given$files, function(i) {
     gap <- gaps(level_block(given, i))
     at <- which(gap, arr.ind = TRUE)
     data.frame(id = colnames(gap)[at[, 2]], point = rownames(gap)[at[, 1]])
   }))
-  gone$action <- rep("dropped", nrow(gone))
+  gone$action <- rep(c(estimate = "estimated", drop = "dropped", stop = "")[[missing]], nrow(gone))
   if (nrow(gone) && missing == "stop") abort_missing(gone)
-  count <- table(factor(gone$point, given$names))
-  if (missing == "estimate" && any(count > 0 & count < length(given$files))) {
-    crestline_abort(sprintf("%s missing, and points of a sample in files are not estimated.",
-                            amount(sum(count > 0), "point")),
-                    "Give missing = \"drop\", or estimate them before the files are written.",
-                    stage = "align")
+  lacking <- tabulate(match(gone$point, given$names), length(given$names))
+  lacking <- stats::setNames(lacking, given$names)
+  nowhere <- lacking == length(given$files)
+  if (missing == "estimate" && any(nowhere) && sum(!nowhere) > dim + 1) {
+    tell_nowhere(given$names[nowhere])
+    gone$action[gone$point %in% given$names[nowhere]] <- "dropped"
+    given <- without_points(given, nowhere)
+    lacking <- lacking[!nowhere]
   }
-  if (sum(count == 0) <= length(given$files$axes)) {
-    crestline_abort("no more than three points are there in every specimen.",
-                    "Leave out the worst specimens.", stage = "align")
+  if (any(lacking > 0)) {
+    own <- gone$id[gone$point %in% names(lacking)]
+    there <- length(lacking) - tabulate(match(own, given$files$ids), length(given$files))
+    check_enough(lacking, stats::setNames(there, given$files$ids), dim, missing)
+    given <- if (missing == "drop") without_points(given, lacking > 0) else
+      filled_in_files(given, there)
   }
-  given <- without_points(given, as.vector(count) > 0)
   given$missing <- gone
   if (is.null(given$reference) || anyNA(given$reference)) {
     given$reference <- unnamed_slice(level_block(given, 1), 1)
   }
+  given
+}
+
+#' The mean from which missing points are put in: as [estimated()], a pass over the files a round
+#' @param there Number of points of each specimen.
+#' @noRd
+filled_in_files <- function(given, there, tolerance = 1e-6, rounds = 50) {
+  start <- given$reference
+  if (is.null(start) || anyNA(start)) {
+    whole <- which(there == length(given$kept))[1]
+    if (is.na(whole)) {
+      crestline_abort("no specimen has all points: there is nothing to put them in from.",
+                      "Give missing = \"drop\", or leave out the worst specimens.",
+                      stage = "align")
+    }
+    i <- given$files$block[whole]
+    start <- unnamed_slice(level_block(given, i), match(whole, block_rows(given$files, i)))
+  }
+  known <- given$reference
+  given$reference <- given$filled_from <- start
+  fit <- mean_of_files(given, rep(1, length(given$kept)), 1L, tolerance, rounds, TRUE)
+  if (!fit$converged) warn_alignment(rounds, utils::tail(fit$moved, 1))
+  given$filled_from <- fit$mean
+  given$reference <- if (is.null(known) || anyNA(known)) fit$mean else known
   given
 }
 
@@ -85,9 +117,10 @@ one_laid <- function(x, mean, weight, scaling) {
 }
 
 #' The Procrustes mean, a pass over the files a round; as [fit_alignment()]
+#' @param refilled Whether missing points are put in from each round's mean.
 #' @return List: `mean` (k x d, in the pose of the reference), `moved`, `converged`.
 #' @noRd
-mean_of_files <- function(given, weight, scaling, tolerance, rounds) {
+mean_of_files <- function(given, weight, scaling, tolerance, rounds, refilled = FALSE) {
   norm <- function(x) sqrt(sum(weight * x^2))
   mean <- start <- one_laid(given$reference, given$reference, weight, scaling)
   if (scaling > 0) mean <- start <- start / norm(start)
@@ -102,6 +135,7 @@ mean_of_files <- function(given, weight, scaling, tolerance, rounds) {
     after <- if (scaling > 0) total / norm(total) else total / length(given$files)
     moved[round] <- max(abs(after - mean)) / norm(after)
     mean <- unname(after)
+    if (!is.null(given$filled_from) && refilled) given$filled_from <- mean
     if (moved[round] <= tolerance) break
   }
   mean <- one_laid(mean, start, weight, 0L)
@@ -187,7 +221,7 @@ warn_of_files <- function(aligned, hash, limits, floor = 0.15) {
       list(twin = sprintf("the same shape under two names: %s.",
                           shorten(vapply(twins, paste, "", collapse = " and "), 5)))
     },
-    said_of_sizes(aligned, limits),
+    said_of_sizes(aligned, limits), said_of_gaps(aligned, limits),
     if (length(far)) {
       named <- sprintf("%s (%.3g times as far)", ids[far], distance[far] / middle)
       list(far = sprintf("far from the others: %s.", shorten(named)))

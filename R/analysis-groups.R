@@ -254,7 +254,11 @@ compare_levels <- function(aligned, design, labels, components, tests, equal_spr
                  lost = if (design$kind == "within") nlevels(design$block) - 1 else 0)
   each <- lapply(aligned, function(one) {
     tick()
-    compare_level(in_design(one, design), labels, components, tests, spread, blocks, counts, tick)
+    units <- in_design(one, design)
+    # Units in files have a folder of their own.
+    made <- setdiff(attr(units, "files")$dir, attr(one, "files")$dir)
+    if (length(made)) on.exit(unlink(made, recursive = TRUE))
+    compare_level(units, labels, components, tests, spread, blocks, counts, tick)
   })
   signs_of_first(each, nlevels(design$group) == 2)
 }
@@ -277,15 +281,18 @@ compare_level <- function(aligned, labels, components, tests, spread, blocks, co
     if (!spread$equal) common <- common_form(found$x[, among, drop = FALSE], labels, count)
     pca <- first_components(found, if (components >= 1) most else length(found$sdev))
   }
+  known <- if (inherits(aligned, "aligned_files") && (wants("shape") || wants("points"))) {
+    sums_in_files(aligned, labels, counts, tested_normals(aligned))
+  }
   total <- if (wants("shape")) {
-    whole_shape(aligned, labels, spread, leading_squares(aligned, found))
+    whole_shape(aligned, labels, spread, leading_squares(aligned, found), known)
   }
   rows <- list(if (wants("size")) size_test(aligned$size, labels, spread, counts),
                if (wants("shape")) mean_shape_test(total, labels, spread, counts),
                if (wants("T2")) t2_test(pca, most, labels, spread, common),
                if (wants("components")) component_tests(pca, most, labels, spread, common),
                if (wants("dispersion")) dispersion_test(aligned, labels))
-  points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick)
+  points <- if (wants("points")) point_tests(aligned, labels, spread, blocks, tick, known)
   list(tests = do.call(rbind, rows), points = points, pca = pca,
        components = if (is.null(pca)) NA else count)
 }

@@ -20,14 +20,12 @@ complete_configurations <- function(given, missing) {
     if (missing == "stop") abort_missing(given$missing)
     nowhere <- rowSums(!gap) == 0
     if (missing == "estimate" && any(nowhere) && sum(!nowhere) > dim(coords)[2] + 1) {
-      # A face without ears is no reason to stop: nothing is known of these points.
-      crestline_inform(sprintf("align: %s missing in every specimen, left out: %s.",
-                               amount(sum(nowhere), "point"), shorten(rownames(gap)[nowhere], 5)))
+      tell_nowhere(rownames(gap)[nowhere])
       given$missing$action[nowhere[at[, 1]]] <- "dropped"
       given <- without_points(given, nowhere)
       gap <- gap[!nowhere, , drop = FALSE]
     }
-    check_enough(gap, dim(coords)[2], missing)
+    check_enough(rowSums(gap), colSums(!gap), dim(coords)[2], missing)
     if (missing == "drop") given <- without_points(given, rowSums(gap) > 0) else
       if (any(gap)) given <- estimated(given, gap)
   }
@@ -51,28 +49,38 @@ abort_missing <- function(missing) {
                   "Let them be estimated or dropped: see `missing`.", stage = "align")
 }
 
-check_enough <- function(gap, dim, missing) {
+#' A face without ears is no reason to stop: nothing is known of these points
+#' @noRd
+tell_nowhere <- function(points) {
+  crestline_inform(sprintf("align: %s missing in every specimen, left out: %s.",
+                           amount(length(points), "point"), shorten(points, 5)))
+}
+
+#' @param lacking k, with names: how many specimens lack each point.
+#' @param there n, with names: how many points each specimen has.
+#' @noRd
+check_enough <- function(lacking, there, dim, missing) {
   fail <- function(problem, remedy, id = NULL) crestline_abort(
     problem, remedy, stage = "align", id = id
   )
   if (missing == "drop") {
-    if (sum(rowSums(gap) == 0) <= dim) {
+    if (sum(lacking == 0) <= dim) {
       fail("no more than three points are there in every specimen.",
            "Estimate them, or leave out the worst specimens.")
     }
     return(invisible())
   }
-  nowhere <- which(rowSums(!gap) == 0)
+  nowhere <- which(lacking == length(there))
   if (length(nowhere)) {
     fail(sprintf("%s missing in every specimen: %s.", amount(length(nowhere), "point"),
-                 shorten(rownames(gap)[nowhere], 5)),
+                 shorten(names(lacking)[nowhere], 5)),
          "Use missing = \"drop\".")
   }
-  few <- which(colSums(!gap) <= dim + 1)
+  few <- which(there <= dim + 1)
   if (length(few)) {
-    fail(sprintf("%s only.", amount(sum(!gap[, few[1]]), "point")),
+    fail(sprintf("%s only.", amount(there[few[1]], "point")),
          "Leave this specimen out: too few to place the others by.",
-         colnames(gap)[few[1]])
+         names(there)[few[1]])
   }
 }
 

@@ -18,8 +18,17 @@ regroupings <- function(group, n_perm, exact, permutations = NULL, seed = NULL) 
     return(list(labels = cbind(code, labels, deparse.level = 0), exact = FALSE))
   }
   if (count_regroupings(code) <= exact) return(list(labels = all_regroupings(code), exact = TRUE))
-  random <- with_seed(seed, replicate(n_perm, code[sample.int(length(code))]))
-  list(labels = cbind(code, random, deparse.level = 0), exact = FALSE)
+  list(labels = dealt_labels(code, n_perm, seed, function() code[sample.int(length(code))]),
+       exact = FALSE)
+}
+
+#' Group numbers in random orders, the observed one first: one matrix is made, and none on the way
+#' @param deal Function that gives the numbers in a random order.
+#' @noRd
+dealt_labels <- function(code, n_perm, seed, deal) {
+  labels <- matrix(code, length(code), n_perm + 1)
+  with_seed(seed, for (b in seq_len(n_perm)) labels[, b + 1] <- deal())
+  labels
 }
 
 check_permutations <- function(x, n) {
@@ -97,9 +106,11 @@ permutation_p <- function(x, observed = x[1, ], slack = 1e-10) {
 #' observed, under whatever names of the groups
 #' @noRd
 least_p <- function(labels) {
-  dealt <- function(column) match(column, unique(column))
-  own <- dealt(labels[, 1])
-  mean(apply(labels, 2, function(column) all(dealt(column) == own)))
+  # A name stands for another wherever it does in the first column.
+  first <- match(seq_len(max(labels)), labels[, 1])
+  as_first <- function(b) all(labels[first, b][labels[, 1]] == labels[, b]) &&
+    !anyDuplicated(labels[first, b])
+  mean(vapply(seq_len(ncol(labels)), as_first, NA))
 }
 
 #' The least p-value that orders of units can give

@@ -121,8 +121,13 @@ chi_squared_scale <- function(own, groups, times = 1, counted = 1) {
 #' @return q numbers, 1 to the number of matrices.
 #' @noRd
 effective_dimensions <- function(y) {
-  product <- function(a, b) colSums(y[[a]] * y[[b]])
-  each <- seq_along(y)
+  dimensions_of_products(function(a, b) colSums(y[[a]] * y[[b]]), length(y))
+}
+
+#' @param product Function of the numbers of two matrices: sums of their products, q.
+#' @noRd
+dimensions_of_products <- function(product, directions) {
+  each <- seq_len(directions)
   whole <- Reduce(`+`, lapply(each, function(a) product(a, a)))
   square <- Reduce(`+`, lapply(each, function(a) {
     Reduce(`+`, lapply(each, function(b) product(a, b)^2))
@@ -179,14 +184,24 @@ group_scores <- function(y, labels, equal_spread) {
 #' @noRd
 observed_f <- function(about, squares, code, spread) {
   found <- group_squares(about, squares, cbind(code), !spread$equal)
-  groups <- max(code)
-  n <- length(code)
+  f_of_squares(found, colSums(squares), tabulate(code), spread)
+}
+
+#' The same of the first regrouping of squares
+#' @param found As of [group_squares()].
+#' @param all q sums of squares in all.
+#' @noRd
+f_of_squares <- function(found, all, sizes, spread) {
+  first <- function(x) x[1, , drop = FALSE]
+  found <- list(between = first(found$between), within = lapply(found$within, first))
+  groups <- length(sizes)
+  n <- sum(sizes)
   if (spread$equal) {
     df <- n - spread$lost - groups
-    within <- pmax(colSums(squares) - found$between, 0)
+    within <- pmax(all - found$between, 0)
     return(list(f = as.vector(found$between / within) * df / (groups - 1), df = df))
   }
-  own <- lapply(separate_f(found, tabulate(code)), as.vector)
+  own <- lapply(separate_f(found, sizes), as.vector)
   kept <- kept_df(n, groups, spread)
   list(f = own$f * kept, df = own$df * kept)
 }
@@ -320,12 +335,13 @@ mean_shape_test <- function(total, labels, spread, counts) {
     ..., p_value = permutation_p(total$score), share = share, z = score_z(total$score, spread$equal)
   )
   if (length(sizes) > 2) {
-    return(tested("mean shape F", observed_f(total$about, total$squares, code, spread)$f))
+    return(tested("mean shape F", total$f))
   }
   distance <- sqrt(total$between * sum(1 / sizes))
   # Of every bootstrap sample the first mean less the second.
-  drawn <- counts * c(1, -1)[code] / sizes[code]
-  drawn <- sqrt(pmax(total$about(drawn), 0))
+  drawn <- total$drawn
+  if (is.null(drawn)) drawn <- total$about(counts * c(1, -1)[code] / sizes[code])
+  drawn <- sqrt(pmax(drawn, 0))
   tested("mean shape", distance[1],
          effect = with_interval(distance[1] - mean(distance), as.vector(drawn)))
 }
@@ -336,22 +352,29 @@ mean_shape_test <- function(total, labels, spread, counts) {
 #' sums of the groups, some points at a time.
 #'
 #' @param leading Of [leading_squares()]; worked out only with more specimens than variables.
-#' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1).
+#' @param known Of [sums_in_files()], NULL of a sample in memory.
+#' @return List: `about`, `squares` (n x 1), `between` and `score` (B x 1), `f` (as it is grouped),
+#'   `drawn` (R x 1: `about` of bootstrap samples, NULL where not known).
 #' @noRd
-whole_shape <- function(aligned, labels, spread, leading) {
+whole_shape <- function(aligned, labels, spread, leading, known = NULL) {
   gram <- if (length(aligned) <= length(aligned$mean)) inner_products(aligned)
-  squares <- cbind(if (is.null(gram)) over_points(aligned, squares_by_row) else diag(gram))
+  squares <- cbind(if (!is.null(gram)) diag(gram) else if (!is.null(known)) known$squares else
+    over_points(aligned, squares_by_row))
   square <- if (spread$equal) NA else if (is.null(gram)) leading else sum_of_squares(gram)
   dimensions <- if (spread$equal) 1 else max(1, sum(squares)^2 / square, na.rm = TRUE)
   about <- function(member) total_of_sums(aligned, gram, member)
-  sums <- if (is.null(gram)) whole_sums(aligned, labels) else by_columns(labels, group_sums, about)
+  sizes <- tabulate(labels[, 1])
+  sums <- if (!is.null(gram)) by_columns(labels, group_sums, about) else if (!is.null(known)) {
+    whole_of_sums(aligned, known$sums, sizes)
+  } else whole_sums(aligned, labels)
   own <- if (!spread$equal) {
     by_columns(labels, group_sums, function(member) crossprod(member, squares), FALSE)
   }
-  sizes <- tabulate(labels[, 1])
   found <- split_squares(sums, own, sum(squares), sizes)
   score <- scores_of_squares(found, sum(squares), sizes, spread$equal, dimensions)$score
-  list(about = about, squares = squares, between = found$between, score = score)
+  list(about = about, squares = squares, between = found$between, score = score,
+       f = f_of_squares(found, sum(squares), sizes, spread)$f,
+       drawn = if (is.null(gram) && !is.null(known$drawn)) weighted_squares(aligned, known$drawn))
 }
 
 #' Squared sums over all variables of weighted specimens

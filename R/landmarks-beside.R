@@ -6,21 +6,22 @@
 #' extension, or as MeshLab names picked points. A `.json` that holds no markups is none.
 #'
 #' @param file Path of the mesh.
+#' @param listing Of its folder, see [folder_listing()].
 #' @return Path, "" where there is none. Refused where two files differ: landmarks, or their places
 #'   by more than the tolerance.
 #' @noRd
-landmarks_beside <- function(file) {
+landmarks_beside <- function(file, listing = folder_listing(dirname(file))) {
   # All of them; where none has the mesh's name exactly, those that differ in case and are not of
   # another mesh
   stem <- sub("[.][^.]*$", "", basename(file))
-  name <- list.files(dirname(file), all.files = TRUE)
-  name <- name[startsWith(tolower(name), tolower(stem))]
-  own <- substr(name, 1, nchar(stem))
-  end <- tolower(substring(name, nchar(stem) + 1))
   known <- c(paste0(".", tolower(names(landmark_formats()))), ".json", "_picked_points.pp")
   known <- c(known, paste0(".", file_extension(file), known))
-  meant <- if (stem %in% own[end %in% known]) stem else
-    setdiff(own, own[end %in% paste0(".", names(mesh_readers()))])
+  meshes <- paste0(".", names(mesh_readers()))
+  name <- unlist(mget(paste0(tolower(stem), unique(c(known, meshes))), listing,
+                      ifnotfound = list(NULL)), use.names = FALSE)
+  own <- substr(name, 1, nchar(stem))
+  end <- tolower(substring(name, nchar(stem) + 1))
+  meant <- if (stem %in% own[end %in% known]) stem else setdiff(own, own[end %in% meshes])
   fits <- end %in% known & own %in% meant
   name <- name[fits][order(match(end[fits], known))]
   beside <- if (dirname(file) == "." && !startsWith(file, "./")) name else
@@ -37,6 +38,15 @@ landmarks_beside <- function(file) {
     )
   }
   beside[1]
+}
+
+#' The names of the files of a folder, by what they are in small letters: so that a folder of many
+#' thousands is read once for all of them
+#' @return Environment.
+#' @noRd
+folder_listing <- function(dir) {
+  name <- list.files(dir, all.files = TRUE)
+  list2env(split(name, tolower(name)), parent = emptyenv())
 }
 
 #' Landmarks of some specimens, by their ids

@@ -74,7 +74,7 @@ file_jobs <- function(files, landmarks, reading, ids = NULL) {
     ids <- file_ids(files)
   }
   readings <- reading_by_id(reading, ids)
-  own <- if (is.null(landmarks)) lapply(files, landmarks_or_refusal) else
+  own <- if (is.null(landmarks)) landmarks_or_refusals(files) else
     given_landmarks(landmarks, ids, reading$landmarks)
   wanting <- c(attr(own, "problem"), rep(NA, length(ids)))[seq_along(ids)]
   stats::setNames(Map(function(mesh, id, at, reading, wanting) {
@@ -155,14 +155,18 @@ file_ids <- function(files) {
   make.unique(ids, sep = " ")
 }
 
-#' The landmark file beside a mesh, NULL where there is none, or the condition by which it is
+#' The landmark file beside each mesh, NULL where there is none, or the condition by which it is
 #' refused
 #' @noRd
-landmarks_or_refusal <- function(file) {
-  tryCatch({
-    beside <- landmarks_beside(file)
-    if (nzchar(beside)) beside
-  }, crestline_error = identity)
+landmarks_or_refusals <- function(files) {
+  folders <- unique(dirname(files))
+  listings <- lapply(folders, folder_listing)
+  Map(function(file, listing) {
+    tryCatch({
+      beside <- landmarks_beside(file, listing)
+      if (nzchar(beside)) beside
+    }, crestline_error = identity)
+  }, files, listings[match(dirname(files), folders)], USE.NAMES = FALSE)
 }
 
 #' Landmarks as [landmarks_for()] has them, none for meshes whose path is NA

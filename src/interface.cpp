@@ -9,6 +9,7 @@
 #include "analysis_lm.h"
 #include "analysis_rows.h"
 #include "analysis_spread.h"
+#include "analysis_sums.h"
 #include "curvature.h"
 #include "placing_match.h"
 #include "placing_rigid.h"
@@ -853,6 +854,15 @@ NumericVector cpp_squared_distances(NumericMatrix y, NumericMatrix means, Intege
   NumericVector out(y.nrow());
   crestline::squared_distances(y.begin(), y.nrow(), y.ncol(), means.begin(), means.nrow(),
                                own.data(), out.begin(), [] { checkUserInterrupt(); });
+  return out;
+}
+
+// x: q x m. member: m x b, other than 0 where it is one. Gives q x b.
+// [[Rcpp::export]]
+NumericMatrix cpp_member_sums(NumericMatrix x, IntegerMatrix member) {
+  NumericMatrix out(x.nrow(), member.ncol());
+  crestline::member_sums(x.begin(), x.nrow(), x.ncol(), member.begin(), member.ncol(), out.begin(),
+                         [] { checkUserInterrupt(); });
   return out;
 }
 

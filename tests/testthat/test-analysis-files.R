@@ -28,8 +28,51 @@ test_that("an alignment of files is that of the array", {
   expect_match(printed_lines(files), "<aligned> 23 specimens, 12 points", all = FALSE)
   expect_crestline_error(files$coords, "in files")
   expect_crestline_error(files[1:3], "in files")
-  expect_crestline_error(compare_groups(files, stored$group, block = rep(1:12, 2)[-24]),
-                         c("in files", "`block`"))
+})
+
+test_that("pairs, repeats and sites in files are those of the array", {
+  skip_if_not_installed("nanoparquet")
+  for (case in list(list(k = 12, triangles = NULL), list(k = 5, triangles = four_triangles()))) {
+    stored <- stored_sample(c(12, 12), k = case$k, triangles = case$triangles)
+    aligned <- align(stored$x, triangles = case$triangles)
+    files <- align(stored$files)
+    folders <- list.files(tempdir(), "^units-")
+    # Pairs of both groups; three repeats of each of eight.
+    for (block in list(rep(1:12, 2), rep(c(3, 1, 2, 4:8), each = 3))) {
+      compare <- function(x) {
+        suppressWarnings(compare_groups(
+          x, stored$group, n_perm = 40, block = block, seed = 1,
+          settings = comparison_settings(components = 2, n_boot = 20)
+        ))
+      }
+      expect_alike(compare(files), compare(aligned), c("tests", "points", "components"))
+    }
+    expect_identical(list.files(tempdir(), "^units-"), folders)
+  }
+})
+
+test_that("missing points of files are put in as those of the array", {
+  skip_if_not_installed("nanoparquet")
+  stored <- stored_sample()
+  x <- stored$x
+  x[3, , c(2, 14)] <- NA
+  x[5:9, , 20] <- NA
+  stored <- write_blocks(x, tempfile("blocks-"), 7)
+  expect_warning(expect_warning(files <- align(stored), class = "crestline_estimated"),
+                 class = "crestline_beyond")
+  aligned <- suppressWarnings(align(x))
+  expect_identical(files$missing, aligned$missing)
+  # In any pose: each goes back to the mean from which it was put in.
+  shape <- function(coords) apply(coords, 3, stats::dist)
+  own <- unlist(lapply(1:4, function(i) shape(read_block(attr(files, "files"), i))))
+  expect_equal(own, as.vector(shape(aligned$coords)), tolerance = 1e-5)
+  expect_equal(files$size, aligned$size, tolerance = 1e-5)
+  x[4, , ] <- NA
+  expect_message(without <- suppressWarnings(align(write_blocks(x, tempfile("blocks-"), 7))),
+                 "left out: 4")
+  expect_identical(rownames(without$mean), setdiff(rownames(files$mean), "4"))
+  x[-(1:4), , 7] <- NA
+  expect_crestline_error(align(write_blocks(x, tempfile("blocks-"), 7)), "3 points only")
 })
 
 test_that("components, comparisons and models of files are those of the array", {
@@ -85,7 +128,6 @@ test_that("missing points are dropped, or refused, and doubts are told", {
   x[3, , c(2, 14)] <- NA
   x[, , 9] <- x[, , 5]
   files <- write_blocks(x, tempfile("blocks-"), 7)
-  expect_crestline_error(align(files), c("1 point missing", "drop"))
   expect_crestline_error(align(files, missing = "stop"), "missing")
   expect_warning(dropped <- align(files, missing = "drop"), class = "crestline_twin")
   own <- suppressWarnings(align(x, missing = "drop"))

@@ -367,3 +367,9 @@ test_that("components are printed with p-values that are adjusted for their numb
   expect_true(any(own$p_adjusted > own$p_value))
   expect_output(print(compared), "single components: adjusted for their number")
 })
+
+test_that("the least p counts the deals that are the observed one under other names", {
+  expect_equal(least_p(all_regroupings(c(1L, 1L, 2L, 2L))), 2 / 6)
+  expect_equal(least_p(all_regroupings(c(1L, 1L, 2L, 2L, 2L))), 1 / 10)
+  expect_equal(least_p(all_regroupings(rep(1:3, each = 2))), 6 / 90)
+})
