@@ -24,7 +24,8 @@
 #'   * `dir` (path), `ids` (names of the n specimens), `block` (n: number of the file of each);
 #'   * `points`: data frame with a row for each point: `level`, `point` (name), `place` (points that
 #'     coincide share one); `axes` (names of the co-ordinates);
-#'   * `template` (a `shape`; `NULL` of an array), `triangles` (3 x m or `NULL`), `provenance`.
+#'   * `template` (a `shape`; `NULL` of an array), `triangles` (3 x m or `NULL`), `provenance`;
+#'   * `hash` (of the bytes of each file).
 #'
 #'   `length()` is the number of specimens, `names()` are their names.
 #' @section Errors: of class `crestline_error`: the folder cannot be made, or has a sample already;
@@ -186,9 +187,11 @@ block_name <- function(i) sprintf("block-%04d.parquet", i)
 
 block_files <- function(x) file.path(x$dir, block_name(seq_len(n_blocks(x))))
 
-#' @param head List: `ids`, `block`, `points`, and what else is the same for all specimens.
+#' @param head List: `ids`, `block`, `points`, and what else is the same for all specimens. The hash
+#'   of every block goes with it: another sample may have the same specimens.
 #' @noRd
 write_sample_head <- function(head, dir) {
+  head$hash <- rlang::hash_file(file.path(dir, block_name(seq_len(max(head$block)))))
   keep(head, list(key = content_hash(head$ids), mesh = "none"), file.path(dir, "sample.head"))
 }
 
@@ -210,7 +213,9 @@ read_block <- function(x, i, rows = seq_len(nrow(x$points))) {
   table <- tryCatch(nanoparquet::read_parquet(file, col_select = c("id", name)),
                     error = function(e) NULL)
   ids <- x$ids[block_rows(x, i)]
-  if (is.null(table) || !identical(as.character(table$id), ids)) {
+  # Samples of former versions have no hashes.
+  own <- is.null(x$hash) || file.exists(file) && identical(rlang::hash_file(file), x$hash[i])
+  if (!own || is.null(table) || !identical(as.character(table$id), ids)) {
     refuse_blocks(sprintf("%s is damaged, or not of this sample.", file),
                   "Write the sample again.")
   }

@@ -90,7 +90,7 @@ slide_task <- function(task, plan, template, settings, red, limits, specimens) {
       kept_shape(task, opened$about)
     }
   }
-  if (!is.null(kept)) return(c(list(shape = kept), none))
+  if (!is.null(kept)) return(c(list(shape = kept), said_when_slid(opened$about)))
   shape <- task$shape
   if (inherits(shape, "kept_shape")) shape <- read_shape(shape)
   if (inherits(shape, "shape_failure")) return(c(list(shape = shape), none))
@@ -105,15 +105,27 @@ slide_task <- function(task, plan, template, settings, red, limits, specimens) {
     one$cut <- cut_task(one, plan)
     one["start"] <- list(start_task(one, plan))
     slid <- finish_task(one, plan)
-    if (!is.null(task$file)) slid <- keep_slid(slid, task)
-    list(shape = slid, red = parts[c("specimen", "part", "level")], cut = cut)
+    said <- list(red = parts[c("specimen", "part", "level")], cut = cut)
+    if (!is.null(task$file)) slid <- keep_slid(slid, task, said)
+    c(list(shape = slid), said)
   }, crestline_error = function(e) c(list(shape = failure_of(e)), none))
 }
 
-keep_slid <- function(shape, task) {
-  about <- c(list(key = task$key, mesh = c(shape$key, "none")[1], id = task$name), told_of(shape))
+#' @param said List: `red`, `cut` of [slide_task()], for a run that continues this one.
+#' @noRd
+keep_slid <- function(shape, task, said) {
+  about <- c(list(key = task$key, mesh = c(shape$key, "none")[1], id = task$name, slid = said),
+             told_of(shape))
   keep(stored_shape(shape, dirname(task$file)), about, task$file, "xz")
   kept_shape(task, about)
+}
+
+#' What was said of a shape when it was slid, by an earlier run
+#' @param about Of its file.
+#' @noRd
+said_when_slid <- function(about) {
+  red <- about$slid$red
+  list(red = if (NROW(red)) as.data.frame(red), cut = c(as.numeric(about$slid$cut), NA)[1])
 }
 
 #' Warn of what the workers met: specimens that could not be slid, red parts, other cuts

@@ -8,6 +8,9 @@
 #' specimens of a cohort (`part` of [fit_shapes()]) that are not measured yet, with the stage
 #' "waiting".
 #'
+#' A result stays when its scan is taken away from the folder of scans. A cohort (`part`) remembers
+#' its specimens: a message names results of others. Leave them out, `x[ids]`, or delete their files.
+#'
 #' @param x Path of the folder (`dir` of [fit_shapes()]), or paths of `.shape` files.
 #' @return A `shape_batch`, as of [fit_shapes()], in the order of the files' names.
 #' @section Errors: of class `crestline_error`: there is no folder or file of that name, it has no
@@ -115,7 +118,15 @@ waiting_in <- function(x, there) {
   files <- list.files(x, "^cohort-.*[.]value$", full.names = TRUE)
   if (!length(files)) return(list())
   opened <- open_kept(files[which.max(as.numeric(file.mtime(files)))])
-  ids <- if (opened$state == "whole") setdiff(kept_value(opened), there)
+  cohort <- if (opened$state == "whole") kept_value(opened)
+  others <- if (length(cohort)) setdiff(there, cohort)
+  if (length(others)) {
+    crestline_inform(sprintf(
+      "%s of scans that the last cohort did not have: %s. They are kept, see read_batch().",
+      amount(length(others), "result"), shorten(others, 5)
+    ))
+  }
+  ids <- setdiff(cohort, there)
   failure <- new_failure("waiting", paste("it is not measured yet: its part waits or runs, or the",
                                           "machine that had it has died."),
                          "When no job runs any more, run the same part again.")

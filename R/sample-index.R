@@ -51,9 +51,19 @@ read_index <- function(dir, kind = "index", columns = index_columns, most = 8) {
   table <- matrix(as.character(unlist(fields[whole])), ncol = length(columns), byrow = TRUE,
                   dimnames = list(NULL, columns))
   table <- as.data.frame(table)
-  table <- table[table$end == "." & !duplicated(table$file, fromLast = TRUE), ]
+  table <- table[table$end == ".", ]
+  table <- table[!table$file %in% ambiguous_files(table) &
+                   !duplicated(table$file, fromLast = TRUE), ]
   if (length(parts) > most) merge_index(table, parts, dir, kind)
   table
+}
+
+#' Files of which two lines say different things, though they name the same size and time: on a disk
+#' with coarse times one of them may be of a result that was replaced
+#' @noRd
+ambiguous_files <- function(table) {
+  seen <- paste(table$file, table$size, table$time, sep = "\t")
+  unique(table$file[table$key != table$key[match(seen, seen)]])
 }
 
 #' One index file in place of many. A line that another process adds meanwhile may be lost: it is

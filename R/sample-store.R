@@ -18,12 +18,12 @@ stored_shape <- function(shape, dir, source = NULL) {
   scheme <- fields$scheme
   fields$scheme <- share_value(scheme, dir)
   fields$provenance["settings"] <- list(share_value(shape$provenance$settings, dir))
-  points <- pack_points(shape$points, scheme)
-  packed <- read_alike(shape$points, unpack_points(points, scheme))
+  points <- if_packed(pack_points(shape$points, scheme))
+  packed <- !is.null(points) && read_alike(shape$points, unpack_points(points, scheme))
   if (packed) fields$points <- points
   paths <- c(lapply(shape$tracks, `[[`, "path"), shape$paths)
-  pool <- pack_paths(paths)
-  pooled <- read_alike(paths, unpack_paths(pool))
+  pool <- if_packed(pack_paths(paths))
+  pooled <- !is.null(pool) && read_alike(paths, unpack_paths(pool))
   if (pooled) {
     fields$tracks <- lapply(shape$tracks, function(track) replace(track, "path", list(NULL)))
     fields$paths <- pool
@@ -34,6 +34,10 @@ stored_shape <- function(shape, dir, source = NULL) {
   structure(list(version = stored_version, packed = packed, pooled = pooled, fields = fields),
             class = "stored_shape")
 }
+
+#' What is packed; NULL of what cannot be, such as a path with a missing place
+#' @noRd
+if_packed <- function(code) tryCatch(code, error = function(e) NULL)
 
 #' The shape again
 #' @param dir Folder of its file.

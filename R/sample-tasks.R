@@ -140,7 +140,8 @@ measure_task <- function(task, scheme, settings) {
   if (is.null(task$file)) return(shape)
   if (!inherits(shape, "shape")) return(note_failure(shape, task))
   tryCatch(keep_shape(shape, task),
-           crestline_keeping_error = function(e) failure_of(e, ear$heard, fault = TRUE))
+           crestline_keeping_error = function(e) failure_of(e, ear$heard, fault = TRUE),
+           error = function(e) note_failure(failure_of(e, ear$heard), task))
 }
 
 #' A shape written to its file, and to the index

@@ -46,6 +46,10 @@ test_that("a folder that is not whole is refused by name", {
   file <- function(i) file.path(stored$dir, block_name(i))
   file.copy(file(1), file(2), overwrite = TRUE)
   expect_crestline_error(read_block(stored, 2), "block-0002.parquet is damaged")
+  # Another sample of the same specimens.
+  other <- write_blocks(posed_sample(n = 15) + 1, blocks_folder(), 7)
+  file.copy(file.path(other$dir, block_name(2)), file(2), overwrite = TRUE)
+  expect_crestline_error(read_block(stored, 2), c("block-0002.parquet", "not of this sample"))
   writeBin(as.raw(1:9), file(2))
   expect_crestline_error(read_block(stored, 2), "block-0002.parquet is damaged")
   unlink(file(2))

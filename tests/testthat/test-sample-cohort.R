@@ -55,6 +55,21 @@ test_that("slid shapes go into files, and a run that was cut short goes on", {
   expect_identical(file.mtime(file.path(slid, "ball 1.shape")), before)
 })
 
+test_that("what was said of a slid shape is said again by a run that goes on", {
+  shape <- fit_shape(batch_specimens(1)[[1]], edge_scheme(), progress = FALSE)
+  dir <- tempfile("slid-")
+  dir.create(dir)
+  on.exit(unlink(dir, recursive = TRUE))
+  task <- list(key = "some", name = "ball 1", file = file.path(dir, "ball 1.shape"))
+  red <- data.frame(specimen = "ball 1", part = "ab", level = "curves")
+  for (said in list(list(red = red, cut = 1.5), list(red = NULL, cut = NA_real_),
+                    list(red = red[0, ], cut = 2))) {
+    keep_slid(shape, task, said)
+    again <- said_when_slid(open_kept(task$file)$about)
+    expect_equal(again, list(red = if (NROW(said$red)) said$red, cut = said$cut))
+  }
+})
+
 test_that("a slid shape is found again only if it was measured and slid in the same way", {
   shapes <- lapply(batch_specimens(2), fit_shape, quad_scheme(), progress = FALSE)
   names(shapes) <- c("ball 1", "ball 2")

@@ -20,6 +20,14 @@ test_that("an index that is absent, stale, doubled or cut short changes nothing"
   for (i in 1:12) file.copy(parts()[1], file.path(out, sprintf("index-other-%d.tsv", i)))
   expect_identical(indexed(out), known)
   expect_length(parts(), 1)
+  # Two lines of one size and time that differ: the file is asked, whatever their order.
+  line <- readLines(parts())
+  stale <- sub(known$key[1], strrep("0", nchar(known$key[1])), line[1], fixed = TRUE)
+  for (both in list(c(stale, line), c(line, stale))) {
+    unlink(parts())
+    writeLines(both, file.path(out, "index-both.tsv"))
+    expect_identical(indexed(out), known)
+  }
   # Its file was touched: not the index is right.
   Sys.setFileTime(file.path(out, "ball 2.shape"), "2001-01-01")
   expect_identical(indexed(out), known)
@@ -81,6 +89,12 @@ test_that("a cohort is measured in parts, and what waits is a failure", {
   fit_shapes(dir, edge_scheme(), out, part = c(2, 2))
   expect_identical(nrow(failures(read_batch(out))), 0L)
   expect_length(fit_shapes(dir, edge_scheme(), out, part = c(7, 9)), 0)
+  # A scan is taken away: its result stays, and is named.
+  unlink(file.path(dir, c("ball 5.ply", "ball 5.csv")))
+  Sys.setFileTime(list.files(out, "^cohort-", full.names = TRUE), "2001-01-01")
+  fit_shapes(dir, edge_scheme(), out, part = c(1, 2))
+  expect_message(left <- read_batch(out), "1 result of scans .* not have: ball 5")
+  expect_setequal(names(left), paste("ball", 1:5))
   for (part in list(0, c(3, 2), c(1.5, 2), "a", c(NA, 2))) {
     expect_crestline_error(fit_shapes(dir, edge_scheme(), out, part = part), "`part`")
   }

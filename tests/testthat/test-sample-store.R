@@ -30,6 +30,18 @@ test_that("a result in a folder is the shape that was measured, without its scan
   same_points(moved[[1]], own)
 })
 
+test_that("a path with a missing place is stored as it is, and what cannot be kept is told", {
+  skip_without_futures()
+  shape <- fit_shape(batch_specimens(1)[[1]], edge_scheme(), progress = FALSE)
+  shape$paths[[1]]$x[2] <- NA
+  dir <- tempfile("out-")
+  dir.create(dir)
+  on.exit(unlink(dir, recursive = TRUE))
+  stored <- stored_shape(shape, dir)
+  expect_false(stored$pooled)
+  expect_identical(from_stored(stored, dir)$paths, shape$paths)
+})
+
 test_that("a result of the former layout is read, and written anew, values equal", {
   skip_without_futures()
   dir <- batch_folder(batch_specimens(2))
