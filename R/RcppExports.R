@@ -217,6 +217,10 @@ cpp_squared_distances <- function(y, means, group) {
     .Call(`_crestline_cpp_squared_distances`, y, means, group)
 }
 
+cpp_member_sums <- function(x, member) {
+    .Call(`_crestline_cpp_member_sums`, x, member)
+}
+
 cpp_common_form_t2 <- function(x, labels, groups, count, rounds, least, rounding) {
     .Call(`_crestline_cpp_common_form_t2`, x, labels, groups, count, rounds, least, rounding)
 }

@@ -799,6 +799,18 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_member_sums
+NumericMatrix cpp_member_sums(NumericMatrix x, IntegerMatrix member);
+RcppExport SEXP _crestline_cpp_member_sums(SEXP xSEXP, SEXP memberSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< NumericMatrix >::type x(xSEXP);
+    Rcpp::traits::input_parameter< IntegerMatrix >::type member(memberSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_member_sums(x, member));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_common_form_t2
 List cpp_common_form_t2(NumericMatrix x, IntegerMatrix labels, int groups, int count, int rounds, double least, double rounding);
 RcppExport SEXP _crestline_cpp_common_form_t2(SEXP xSEXP, SEXP labelsSEXP, SEXP groupsSEXP, SEXP countSEXP, SEXP roundsSEXP, SEXP leastSEXP, SEXP roundingSEXP) {
@@ -888,6 +900,7 @@ static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_centred_rows", (DL_FUNC) &_crestline_cpp_centred_rows, 3},
     {"_crestline_cpp_weighted_sum", (DL_FUNC) &_crestline_cpp_weighted_sum, 2},
     {"_crestline_cpp_squared_distances", (DL_FUNC) &_crestline_cpp_squared_distances, 3},
+    {"_crestline_cpp_member_sums", (DL_FUNC) &_crestline_cpp_member_sums, 2},
     {"_crestline_cpp_common_form_t2", (DL_FUNC) &_crestline_cpp_common_form_t2, 7},
     {"_crestline_cpp_permuted_squares", (DL_FUNC) &_crestline_cpp_permuted_squares, 6},
     {NULL, NULL, 0}
