@@ -12,11 +12,13 @@ walked_line <- function(scan, coordinates, path, s, alpha) {
   # d - alpha(s) at the vertices of the window, shifted to vanish at both ends
   offset <- stats::splinefun(s, alpha, method = "natural")
   own <- coordinates$d - offset(coordinates$s)
-  at_end <- function(end) sum(end[2:4] * own[match(scan$it[, end[1]], coordinates$vertex)])
+  first <- match(scan$it[, ends$from[1]], coordinates$vertex)
+  last <- match(scan$it[, ends$to[1]], coordinates$vertex)
   share <- pmin(pmax(coordinates$s / max(s), 0), 1)
-  share[coordinates$vertex %in% scan$it[, ends$from[1]]] <- 0
-  share[coordinates$vertex %in% scan$it[, ends$to[1]]] <- 1
-  level <- own - (1 - share) * at_end(ends$from) - share * at_end(ends$to)
+  share[first] <- 0
+  share[last] <- 1
+  level <- own - (1 - share) * sum(ends$from[2:4] * own[first]) -
+    share * sum(ends$to[2:4] * own[last])
   # Direction in which the curve leaves the first point: along the path and, by the slope, across
   # it
   start <- lapply(unclass(path)[mesh_columns], `[`, 1)
