@@ -19,7 +19,7 @@ patient_surface <- function(shape, norms, age, sex) {
   check_size_ratio(1 / laid$scale, "the norm's mean face", shape$id, "norms")
   check_not_mirrored(xyz, as.matrix(norms$points[c("x", "y", "z")]), "the norm's mean face",
                      shape$id, "norms")
-  field <- prepared_field(norms, "surface")
+  field <- prepared_field(norms, "surface", scan = FALSE)
   found <- standardised_face(field, as.vector(laid$laid), age, sex)
   se <- points$se[row] * laid$scale
   c(list(xyz = matrix(found$y, ncol = 3), scale = laid$scale, turn = laid$turn,
@@ -44,17 +44,20 @@ patient_asymmetry <- function(patient, norms, age, sex) {
                     rep(both(norms$points$se_norm), 3)))
 }
 
-#' A field with its inverse and the scan's weights, made once a session
+#' A field with its inverse and, if asked for, the scan's weights, made once a session
 #' @noRd
-prepared_field <- function(norms, name) {
-  if (is.null(norms$cache[[name]])) {
+prepared_field <- function(norms, name, scan = TRUE) {
+  field <- norms$cache[[name]]
+  if (is.null(field)) {
     field <- norms[[name]]
     field$inverse <- invert_field(field)
-    field$weights <- scan_weights(field, field$scan$radii, field$inverse)
     field$own_variance <- 1 / inverse_diagonal(field$inverse)
-    assign(name, field, norms$cache)
   }
-  norms$cache[[name]]
+  if (scan && is.null(field$weights)) {
+    field$weights <- scan_weights(field, field$scan$radii, field$inverse)
+  }
+  assign(name, field, norms$cache)
+  field
 }
 
 #' Standardised deviations of one face; of missing points what the others make expected

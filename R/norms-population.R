@@ -8,7 +8,9 @@
 #'   (k x 3); `centres` (rows that a lesion may have), `surface_names` and their rows `surface`.
 #' @noRd
 cohort_model <- function(template, settings) {
-  key <- rlang::hash(list(places_of(template), scheme_hash(template$scheme), unclass(settings)))
+  # Of the population alone: errors, poses and holes are drawn later.
+  own <- c("variation", "growth", "dimorphism", "directional", "population")
+  key <- rlang::hash(list(places_of(template), scheme_hash(template$scheme), settings[own]))
   once(paste("cohort", key), function() make_cohort_model(template, settings))
 }
 
