@@ -100,7 +100,8 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
   structure(list(points = points, parts = changed_parts(points, covariance, known$settings),
                  measurements = changed_measurements(known, table, growth), limit = limit,
                  weights = fit$weight[surface], converged = fit$converged,
-                 ids = c(before$id, after$id), alpha = 1 - settings$level, robust = is.null(unchanged), growth = growth$words,
+                 ids = c(before$id, after$id), alpha = 1 - settings$level,
+                 robust = is.null(unchanged), growth = growth$words,
                  unit = length_unit(scheme_hash(scheme)),
                  triangles = model_triangles(scheme, FALSE),
                  front = own_pose(coords(before, "landmarks"), scheme),
@@ -197,8 +198,8 @@ lay_visit <- function(before, after, used, robust, error, settings) {
     move <- weighted_move(b[used, ], a[used, ], weight)
     if (!robust) break
     off <- row_lengths(move(b[used, ]) - a[used, ]) / own
-    # 1.538: the median length of three standard normal numbers
-    share <- off / (settings$tukey * max(stats::median(off) / 1.538, 1e-12))
+    # 1.538: the median length of three standard normal numbers; 1e-6 of an error is rounding
+    share <- off / (settings$tukey * max(stats::median(off) / 1.538, 1e-6))
     new <- ifelse(share < 1, (1 - share^2)^2, 0)
     moved <- max(abs(new - weight))
     weight <- new
