@@ -96,7 +96,7 @@ alignment_scene <- function(x, far, words, colour, view, legend, title) {
     add_to(scene, "notes", sprintf("Shown are %d of the %d specimens, and the farthest.",
                                    length(some), length(x)))
   }
-  draw_points(in_layer(scene, "specimens"), unname(do.call(rbind, shapes[some])), "grey60", 0.35)
+  draw_points(in_layer(scene, "specimens"), unname(do.call(rbind, shapes[some])), "grey50", 0.6)
   add_configuration(in_layer(scene, "mean"), x$mean, x$level, "black")
   for (i in seq_along(far)) {
     add_configuration(in_layer(scene, names(x)[far[i]]), shapes[[far[i]]], x$level, colour[i], 1.5)
