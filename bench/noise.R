@@ -2,6 +2,7 @@
 #
 #   CRESTLINE_SHARED=../shared/data Rscript bench/noise.R FOLDER repeat 1:20
 #   CRESTLINE_SHARED=../shared/data Rscript bench/noise.R FOLDER coverage 1:30
+#   Rscript bench/noise.R FOLDER closed 1:8
 #   CRESTLINE_SHARED=../shared/data Rscript bench/noise.R FOLDER limits
 #   Rscript bench/noise.R FOLDER report
 #
@@ -207,6 +208,47 @@ report_covered <- function(rows) {
   print(cells, row.names = FALSE)
 }
 
+ring <- function(noise, correlation, seed, around = 25, half = 40, height = 4, width = 4) {
+  set.seed(seed)
+  side <- -half:half
+  n <- length(side)
+  g <- as.matrix(expand.grid(side, side))
+  inner <- abs(g[, 1]) < half & abs(g[, 2]) < half
+  g[inner, ] <- g[inner, ] + stats::runif(2 * sum(inner), -0.25, 0.25)
+  rough <- matrix(stats::rnorm(n^2), n)
+  if (correlation > 0) {
+    kernel <- stats::dnorm(outer(side, side, `-`), sd = correlation)
+    kernel <- kernel / sqrt(rowSums(kernel^2))
+    rough <- kernel %*% rough %*% t(kernel)
+  }
+  z <- height * exp(-(sqrt(rowSums(g^2)) - around)^2 / (2 * width^2)) + noise * as.vector(rough)
+  first <- as.vector(outer(1:(n - 1), n * (0:(n - 2)), `+`))
+  it <- rbind(cbind(first, first + 1, first + n + 1), cbind(first, first + n + 1, first + n))
+  mesh <- structure(list(vb = rbind(t(g), z, 1), it = t(it)), class = "mesh3d")
+  marks <- rbind(a = c(around, 0, height), b = c(-around, 0, height))
+  specimen(mesh, marks, id = "ring", outward = "keep", tolerance = 5)
+}
+
+closed <- function(around = 25) {
+  cells <- expand.grid(noise = c(0.1, 0.3), correlation = c(0, 2))
+  rows <- lapply(seq_len(nrow(cells)), function(i) do.call(rbind, lapply(seeds, function(seed) {
+    scan <- ring(cells$noise[i], cells$correlation[i], seed, around)
+    curve <- suppressWarnings(ridge_curve(scan, "a", "a", "ridge", radius = 5, width = 7.5, n = 60,
+                                          via = "b"))
+    away <- abs(sqrt(curve$points$x^2 + curve$points$y^2) - around)
+    data.frame(cells[i, ], seed, covered = mean(away <= 2 * curve$points$se), away = rms(away),
+               se = curve$se, determined = isTRUE(curve$determined), row.names = NULL)
+  })))
+  keep(do.call(rbind, rows))
+}
+
+report_closed <- function(rows) {
+  cat(sprintf("closed ring, %d seeds: share of points within two standard errors\n",
+              length(unique(rows$seed))))
+  print(stats::aggregate(cbind(covered, away, se, determined) ~ noise + correlation, rows, mean),
+        row.names = FALSE, digits = 3)
+}
+
 # Good faces: three scans, 23 of simpop, 19 simulated ones as scanned (without the one of
 # bench/tracks.R whose brow is wrong).
 limits <- function() {
@@ -260,8 +302,10 @@ limits <- function() {
 if (section == "repeat") repeated()
 if (section == "limits") limits()
 if (section == "coverage") covered()
+if (section == "closed") closed()
 if (section == "report") {
   options(width = 150)
   if (length(list.files(folder, "^repeat"))) report_repeated(kept("repeat"))
+  if (length(list.files(folder, "^closed"))) report_closed(kept("closed"))
   if (length(list.files(folder, "^coverage"))) report_covered(kept("coverage"))
 }
