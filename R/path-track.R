@@ -5,8 +5,8 @@
 #' A weak prior on the angle: of the distances of the expected places from the plane, in spreads,
 #' the mean square counts beyond that of the best of `angles` planes, since no plane holds a bent
 #' track. The weight has the long tail of Student's distribution with one degree of freedom, so that
-#' a track that does not fit the object cannot prevail over a surface that is clear (O'Hagan 1979, J.
-#' R. Stat. Soc. B 41, 358-367).
+#' a track that does not fit the object cannot prevail over a surface that is clear (O'Hagan 1979,
+#' J. R. Stat. Soc. B 41, 358-367).
 #'
 #' @param track List: `xyz` (k x 3, expected places), `across` (k x 3, unit vectors along the
 #'   surface and across the track), `spread` (k); in the unit of the mesh. NULL: none.

@@ -47,7 +47,7 @@
 #'   Distances are measured along the normals of local fits. A registration takes part of smooth
 #'   noise away; the fit accounts for that. On 216 pairs of simulated scans, noise along z and
 #'   `direction` known, the mean of `sd` is 0.93 to 0.99 times the true value, for noise correlated
-#'   over one to three spacings. The mean of `range` is 1.03 to 1.25 times. So small a scan holds few
+#'   over one to three spacings. The mean of `range` is 1.03 to 1.25 times. So small a scan has few
 #'   patches of smooth noise; `spread` says how sure the values are. Without a `direction`, noise
 #'   in depth comes out smaller on slopes, and with a longer range. Give places `near` the curves.
 #'   A flat surface does not say how the scans lie along it, and the registration may slide.

@@ -14,7 +14,7 @@
 #'   clear surface (O'Hagan 1979);
 #' * as a flag. [quality()] grades a curve amber if it is more than four spreads off its expected
 #'   track at one place (limit `track` of [quality_limits()]). If a quarter of a specimen's curves
-#'   are that far off, and at least three, the tracks are of another population, or its landmarks are
+#'   are that far off, and at least three, the tracks are of another population, or landmarks are
 #'   wrong. [fit_shape()] then measures the curves without tracks, and gives a warning of class
 #'   `crestline_foreign_tracks`.
 #'
