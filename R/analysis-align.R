@@ -61,9 +61,9 @@
 #'   `missing = "stop"`.
 #' @section Samples in files: [align()] reads the files once a round, and writes the aligned points
 #'   to the folder `dir` of [align_settings()]. If points are estimated, it reads them up to 50
-#'   times more. The first mean is then the template's, or without a template the first specimen that has
-#'   all points. Warnings concern sizes, twins, specimens far from the mean and estimated points,
-#'   not single points far from those of the others.
+#'   times more. The first mean is then the template's, or without a template the first specimen
+#'   that has all points. Warnings concern sizes, twins, specimens far from the mean and estimated
+#'   points, not single points far from those of the others.
 #' @section Warnings: of class `crestline_not_converged`: the mean still moves after the last round.
 #'   Of class `crestline_sample_doubt`: a specimen or point exceeds one of the [sample_limits()].
 #'   Its classes are
