@@ -66,7 +66,7 @@ trefoil <- (40 * (1 + 0.2 * cos(3 * turn))) * cbind(cos(turn), sin(turn))
 three_quarters <- circle(40)[turn <= 1.5 * pi, ]
 
 marked <- function(mesh, marks) {
-  specimen(mesh, marks, id = "simulated", outward = "keep", tolerance = 5)
+  specimen(mesh, marks, id = "simulated", outward = "keep", tolerance = 0.25)
 }
 radius <- 5
 ridge <- function(on, from, to, ...) {
@@ -145,7 +145,7 @@ skull_marks <- function() {
 }
 skull <- function(marks = skull_marks()) {
   data(boneData, package = "Morpho", envir = environment())
-  specimen(skull_0144_ch_fe.mesh, marks, id = "skull", tolerance = 20)
+  specimen(skull_0144_ch_fe.mesh, marks, id = "skull", tolerance = 0.25)
 }
 outlines <- list(
   `orbit left` = list(from = "soL", two = "orL", four = c("mfL", "orL", "ecL"), radius = c(4, 6)),

@@ -320,7 +320,7 @@ run_time <- function(n) {
 run_kept <- function(n) {
   four <- c("pn", "exL", "exR", "gn")
   error_of <- function(face, given, names) {
-    scan <- suppressWarnings(specimen(face$mesh, given, id = face$id, tolerance = 1))
+    scan <- suppressWarnings(specimen(face$mesh, given, id = face$id, tolerance = 0.25))
     said <- character()
     found <- withCallingHandlers(find_landmarks(scan), crestline_warning = function(w) {
       if (inherits(w, "crestline_contrary_landmarks")) said <<- conditionMessage(w)

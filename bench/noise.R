@@ -226,7 +226,7 @@ ring <- function(noise, correlation, seed, around = 25, half = 40, height = 4, w
   it <- rbind(cbind(first, first + 1, first + n + 1), cbind(first, first + n + 1, first + n))
   mesh <- structure(list(vb = rbind(t(g), z, 1), it = t(it)), class = "mesh3d")
   marks <- rbind(a = c(around, 0, height), b = c(-around, 0, height))
-  specimen(mesh, marks, id = "ring", outward = "keep", tolerance = 5)
+  specimen(mesh, marks, id = "ring", outward = "keep", tolerance = 0.25)
 }
 
 closed <- function(around = 25) {

@@ -53,7 +53,7 @@ move_chL <- function(what, code, unit, port) {
   curves <- function(found) {
     mesh <- found$mesh
     mesh$vb[1:3, ] <- unit * mesh$vb[1:3, ]
-    found <- specimen(mesh, unit * found$landmarks, tolerance = 1)
+    found <- specimen(mesh, unit * found$landmarks, tolerance = 0.25)
     fit_shape(found, face_scheme(), ridge_settings(error = FALSE), progress = FALSE)
   }
   data.frame(

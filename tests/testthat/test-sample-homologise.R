@@ -119,7 +119,7 @@ noisy_faces <- function(n, scheme) {
     mesh$vb[1:3, ] <- t(moved(t(mesh$vb[1:3, ]))) + t(t(mesh$normals[1:3, ]) * 0.2 * noise)
     mesh$normals <- NULL
     landmarks <- moved(face$landmarks) + noise[seq_along(face$landmarks)] * 0.5 / sqrt(3)
-    fit_shape(specimen(mesh, landmarks, id = paste("face", i), tolerance = 3), scheme,
+    fit_shape(specimen(mesh, landmarks, id = paste("face", i), tolerance = 0.25), scheme,
               ridge_settings(error = FALSE), progress = FALSE)
   }))
 }

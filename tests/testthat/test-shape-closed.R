@@ -43,7 +43,7 @@ test_that("shapes with closed curves slide and become a sample", {
     angle <- c(a = 20, b = 200, c = 110, d = 290) + c(0, 3, -4)[i] * c(0, 1, 1, -1)
     ring <- ring_specimen(angle, noise = 0.01 * i)
     ring <- specimen(ring$mesh, ring$landmarks, id = paste0("s", i), outward = "keep",
-                     tolerance = 0.5)
+                     tolerance = 0.25)
     fit_shape(ring, disc_scheme(), progress = FALSE)
   })
   slid <- suppressWarnings(slide(shapes[[2]], shapes[[1]], slide_settings(curves = "held")))
@@ -142,7 +142,7 @@ test_that("closed curves have no expected track; the others learn theirs", {
   shapes <- lapply(1:3, function(i) {
     ring <- ring_specimen(c(a = 20, b = 200, c = 110, d = 290), noise = 0.01 * i)
     ring <- specimen(ring$mesh, ring$landmarks, id = paste0("s", i), outward = "keep",
-                     tolerance = 0.5)
+                     tolerance = 0.25)
     fit_shape(ring, scheme, progress = FALSE)
   })
   learnt <- learn_tracks(shapes, fewest = 3)
