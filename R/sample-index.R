@@ -52,8 +52,9 @@ read_index <- function(dir, kind = "index", columns = index_columns, most = 8) {
                   dimnames = list(NULL, columns))
   table <- as.data.frame(table)
   table <- table[table$end == ".", ]
-  table <- table[!table$file %in% ambiguous_files(table) &
-                   !duplicated(table$file, fromLast = TRUE), ]
+  # Measures are used by the key of their result only.
+  unclear <- if (kind == "index") ambiguous_files(table)
+  table <- table[!table$file %in% unclear & !duplicated(table$file, fromLast = TRUE), ]
   if (length(parts) > most) merge_index(table, parts, dir, kind)
   table
 }
