@@ -1,9 +1,10 @@
 # Two ridges part at a and meet at b; landmark c, on the left, fixes the frame.
 arches_specimen <- function(left, right, seed) {
-  made <- arched_ridges(left, right, spacing = 1.2, seed = seed)
+  made <- suppressWarnings(arched_ridges(left, right, spacing = 1.2, seed = seed))
   off <- cbind(0, 9, 9^2 / 10 + left * exp(-(9 - 5)^2 / 3))
   marks <- rbind(made$landmarks, c = off[1, ])
-  specimen(made$mesh, marks, id = paste("arches", seed), outward = "keep", tolerance = 0.25)
+  suppressWarnings(specimen(made$mesh, marks, id = paste("arches", seed), outward = "keep",
+                            tolerance = 0.25))
 }
 
 arches_scheme <- curve_scheme(
