@@ -298,12 +298,20 @@ shape_at <- function(pca, component = 1, sd = 2, as = c("matrix", "mesh"), size 
   if (as == "matrix") shape else points_mesh(shape, pca$triangles)
 }
 
-#' A mesh of the points that have triangles
+#' A mesh of the points that have triangles; those of a missing point (NA) are left out
 #' @noRd
 points_mesh <- function(xyz, triangles) {
   if (is.null(triangles) || !ncol(triangles) || ncol(xyz) != 3) {
     crestline_abort("these points have no triangles between them.",
                     "Use the level \"surface\" of a sample, or give align() `triangles`.",
+                    stage = "components")
+  }
+  there <- is.finite(rowSums(xyz))
+  whole <- there[triangles[1, ]] & there[triangles[2, ]] & there[triangles[3, ]]
+  triangles <- triangles[, whole, drop = FALSE]
+  if (!ncol(triangles)) {
+    crestline_abort("every triangle has a point that is missing.",
+                    "Look at the landmarks of the shape: quality() names what is missing.",
                     stage = "components")
   }
   row <- sort(unique(as.vector(triangles)))

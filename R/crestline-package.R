@@ -57,8 +57,9 @@
 #' * *Norms by age and sex*: [fit_norms()] with [norm_settings()]; one face against them:
 #'   [assess()], [plot.assessment()], its page [write_page()]; files: [write_norms()],
 #'   [read_norms()].
-#' * *Two visits of one person*: [compare_visits()] with [visit_settings()]; errors from
-#'   repeated scans [visit_errors()] with [repeat_settings()].
+#' * *Two visits of one person*: [compare_visits()] with [visit_settings()],
+#'   [plot.visit_comparison()]; errors from repeated scans [visit_errors()] with
+#'   [repeat_settings()].
 #' * *Pictures*: [plot.specimen()], [plot.curve()], [plot_curves()], [plot.shape()],
 #'   [plot.aligned()], [plot.group_comparison()], [plot.shape_pca()], [plot.shape_lm()],
 #'   [plot.repeatability()]; colours [plot_shape_scale()], [shape_colours()].

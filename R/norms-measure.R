@@ -13,7 +13,8 @@
 #' of kind "plane" has no error of its own; its points follow those of its two ends. Points inside
 #' of a patch do not move, as moves along the surface do not change an area.
 #'
-#' @param x A `shape`, as of [fit_shape()] or [slide()], or a `shape_sample`, as of [homologise()].
+#' @param x A `shape`, as of [fit_shape()] or [slide()], a batch of [fit_shapes()] (without those that
+#'   failed), or a `shape_sample`, as of [homologise()].
 #' @param table Data frame of measurements, as [face_measurements()] gives it.
 #' @param error Standard error of each co-ordinate of a landmark, in the unit of the mesh: one
 #'   number, or one for each landmark by name. It is used for landmarks without `se` in the table of
@@ -23,7 +24,8 @@
 #'   `NULL`: the radius of the curve in the scheme, within which its curvature was estimated.
 #' @param seed A whole number for the draws; the random stream of the session is not changed.
 #' @return Data frame with a row for each shape and measurement: `id`, `measurement`, `kind`,
-#'   `value`, `se` (standard error), `unit`, `reason` (why `value` or `se` is NA; otherwise NA). The
+#'   `value`, `se` (standard error), `unit`, `reason` (why `value` or `se` is NA, with what is
+#'   missing; otherwise NA). The
 #'   unit of distances, lengths and depths is "unit", the unit of the mesh; of areas and volumes
 #'   "unit^2" and "unit^3"; of angles "degrees"; of ratios "1".
 #' @section Errors: of class `crestline_error`: `x` is neither a shape nor a sample, the table has a
@@ -44,13 +46,7 @@
 measurements <- function(x, table = face_measurements(), error = NULL, draws = 200, range = NULL,
                          seed = 1) {
   check_given()
-  if (!inherits(x, "shape_sample")) {
-    check_class(x, "shape", "x", "fit_shape() or homologise()")
-    x <- list(x)
-  } else {
-    validate(x)
-    x <- x$shapes
-  }
+  x <- measured_ones(x)
   draws <- check_count(draws, "draws", lower = 0)
   if (!is.null(range)) range <- check_number(range, "range", lower = 0)
   seed <- check_seed(seed)
@@ -64,6 +60,24 @@ measurements <- function(x, table = face_measurements(), error = NULL, draws = 2
   rows <- do.call(rbind, each)
   rownames(rows) <- NULL
   rows
+}
+
+#' The shapes of what [measurements()] takes; of a batch those that were measured
+#' @noRd
+measured_ones <- function(x) {
+  if (inherits(x, "shape_batch")) {
+    if (nrow(failures(x))) {
+      crestline_inform(sprintf("without %s that failed: %s.",
+                               amount(nrow(failures(x)), "specimen"), shorten(failures(x)$id)))
+    }
+    return(Filter(Negate(is.null), as.list(x)))
+  }
+  if (inherits(x, "shape_sample")) {
+    validate(x)
+    return(x$shapes)
+  }
+  check_class(x, "shape", "x", "fit_shape(), fit_shapes() or homologise()")
+  list(x)
 }
 
 no_measurements <- function() {
@@ -102,12 +116,27 @@ measured_shape <- function(shape, plan, error, draws, range, seed) {
   if (any(drawn) && draws > 0) se[drawn] <- drawn_errors(plan, xyz, spread, draws, seed)[drawn]
   se[drawn & draws == 0] <- NA
   reason <- rep(NA_character_, length(plan))
-  reason[is.na(se)] <- "no standard error of its points"
+  reason[is.na(se)] <- "no standard error of its points: give that of a landmark as `error`"
   reason[drawn & draws == 0] <- "no draws"
-  reason[is.na(value)] <- "a point is missing"
+  lost <- which(is.na(value))
+  reason[lost] <- vapply(lost, missing_words, "", plan, xyz, shape$scheme)
   data.frame(id = shape$id, measurement = names(plan), kind = plan_text(plan, "kind"),
              value = value, se = ifelse(is.na(value), NA_real_, se), unit = plan_text(plan, "unit"),
              reason = reason)
+}
+
+#' Which landmarks, curves or patches a measurement lacks
+#' @noRd
+missing_words <- function(i, plan, xyz, scheme, most = 3) {
+  step <- plan[[i]]
+  at <- unlist(c(step[c("at", "base", "lines", "triangles")],
+                 lapply(plan[step$of], `[`, c("at", "base", "lines", "triangles"))))
+  lost <- unique(at[is.na(xyz[at, 1])])
+  place <- match(scheme$points$place, unique(scheme$points$place))
+  # A place of several parts is first that of its landmark
+  part <- unique(scheme$points$part[match(lost, place)])
+  if (length(part)) sprintf("points are missing: %s", shorten(part, most)) else
+    "it cannot be computed from its points"
 }
 
 plan_text <- function(plan, name) vapply(plan, `[[`, "", name, USE.NAMES = FALSE)

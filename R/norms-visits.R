@@ -62,7 +62,8 @@
 #'   `crestline_red_parts`: parts of a shape are red.
 #' @template glossary
 #' @template experimental
-#' @seealso [assess()], [visit_errors()], [repeatability()]
+#' @seealso [plot.visit_comparison()], its page [write_page()], [assess()], [visit_errors()],
+#'   [repeatability()]
 #' @examples
 #' \donttest{
 #' lesion <- data.frame(height = 3, radius = 15, visit = 2)
@@ -97,12 +98,12 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
   assessed <- points$level == "surface" & !is.na(points$score)
   limit <- visit_limit(covariance[assessed, assessed, drop = FALSE], known$settings)
   points$called <- assessed & abs(points$score) > limit
+  unit <- length_unit(scheme_hash(scheme))
   structure(list(points = points, parts = changed_parts(points, covariance, known$settings),
-                 measurements = changed_measurements(known, table, growth), limit = limit,
+                 measurements = changed_measurements(known, table, growth, unit), limit = limit,
                  weights = fit$weight[surface], converged = fit$converged,
                  ids = c(before$id, after$id), alpha = 1 - settings$level,
-                 robust = is.null(unchanged), growth = growth$words,
-                 unit = length_unit(scheme_hash(scheme)),
+                 robust = is.null(unchanged), growth = growth$words, unit = unit,
                  triangles = model_triangles(scheme, FALSE),
                  front = own_pose(coords(before, "landmarks"), scheme),
                  provenance = shapes_provenance(list(before, after))),
@@ -347,7 +348,9 @@ changed_parts <- function(points, covariance, settings) {
   parts
 }
 
-changed_measurements <- function(known, table, growth) {
+#' @param unit Of lengths, in place of "unit".
+#' @noRd
+changed_measurements <- function(known, table, growth, unit) {
   if (is.null(table)) return(NULL)
   a <- measurements(known$before, table, error = known$error)
   b <- measurements(known$after, table, error = known$error)
@@ -357,7 +360,7 @@ changed_measurements <- function(known, table, growth) {
   p <- 2 * stats::pnorm(-abs(change / se))
   data.frame(measurement = a$measurement, before = a$value, after = b$value,
              growth = grown$growth, change = change, se = se, detectable = 1.96 * se, p = p,
-             p_holm = stats::p.adjust(p, "holm"), unit = a$unit)
+             p_holm = stats::p.adjust(p, "holm"), unit = sub("^unit", unit, a$unit))
 }
 
 #' @export
@@ -372,6 +375,7 @@ print.visit_comparison <- function(x, most = 6, ...) {
   check_most(most)
   printed(x, {
     surface <- x$points[x$points$level == "surface", ]
+    unit <- if (x$unit == "unit") "" else paste0(" ", x$unit)
     cat("<visit_comparison> ", x$ids[2], " against ", x$ids[1], "\n", sep = "")
     cat(sprintf("  %d of %d surface points changed (|score| above %.2f, family-wise)\n",
                 sum(surface$called), sum(!is.na(surface$score)), x$limit))
@@ -383,14 +387,15 @@ print.visit_comparison <- function(x, most = 6, ...) {
     if (lost) cat(sprintf("  not assessed, as missing or without `error`: %d\n", lost))
     best <- surface[which.max(abs(surface$change)), ]
     if (nrow(best)) {
-      cat(sprintf("  largest change %.3g +- %.2g at %s %s (detectable from %.2g)\n", best$change,
-                  best$se, best$part, best$point, best$detectable))
+      cat(sprintf("  largest change %.3g +- %.2g%s at %s %s (detectable from %.2g)\n", best$change,
+                  best$se, unit, best$part, best$point, best$detectable))
     }
     called <- x$parts[x$parts$called, ]
     called <- called[order(-abs(called$change / called$se)), ]
     for (i in seq_len(min(most, nrow(called)))) {
-      cat(sprintf("  %s: mean change %.3g +- %.2g\n", called$part[i], called$change[i],
-                  called$se[i]))
+      cat(sprintf("  %s%s: mean change %.3g +- %.2g%s\n", called$part[i],
+                  if (called$level[i] == "curves") " (curve)" else " (patch)", called$change[i],
+                  called$se[i], unit))
     }
     found <- x$measurements[which(x$measurements$p_holm <= x$alpha), ]
     for (i in seq_len(min(most, NROW(found)))) {

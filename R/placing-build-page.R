@@ -10,7 +10,6 @@ build_page <- function(title, defaults) {
     tags$head(shiny::includeCSS(review_file("review.css")),
               shiny::includeCSS(build_file("build.css")),
               tags$meta(name = "viewport", content = "width=device-width, initial-scale=1")),
-    rgl::registerSceneChange(),
     tags$div(
       id = "review", class = "build",
       tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
@@ -22,7 +21,8 @@ build_page <- function(title, defaults) {
         tags$p(class = "help", "Click on the surface: a landmark.",
                "Click on balls, one after another: the ends of the next curve.",
                "Drag a ball: it moves, and its curves with it.",
-               "Drag beside: turn. Wheel: nearer or farther. Right button and drag: shift.")
+               "Drag the surface: turn; near the edge of the picture: roll.",
+               "Wheel: nearer or farther. Right button and drag: shift.")
       )
     ),
     shiny::includeScript(review_file("review.js")), shiny::includeScript(review_file("ended.js")),

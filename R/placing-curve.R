@@ -232,13 +232,3 @@ drawn_points <- function(review) {
               drawn = drawn_words(name, lines[[name]]$snapped, review$log))
   }), names(lines))
 }
-
-#' How a curve was drawn, with observer and time of the last step
-#' @param steps As of [no_steps()].
-#' @noRd
-drawn_words <- function(name, snapped, steps) {
-  last <- utils::tail(steps[steps$part == name & steps$level == "curves", ], 1)
-  paste0("drawn by hand", if (snapped) ", snapped", if (nrow(last)) {
-    sprintf(" (%s%s)", if (nzchar(last$by)) paste0(last$by, ", ") else "", last$time)
-  })
-}

@@ -65,6 +65,27 @@ turn_to <- function(desk, by) {
   on_current(desk, function(now) with_said(now, paste(lost, collapse = " ")))
 }
 
+#' The desk with the reviews of all specimens that have a record, also of those that were not shown;
+#' one that cannot be opened is told
+#'
+#' @param dir As in [digitise()].
+#' @noRd
+with_recorded_reviews <- function(desk, dir) {
+  unseen <- setdiff(desk$ids, names(desk$reviews))
+  if (is.null(dir) || !length(unseen)) return(desk)
+  record <- vapply(unseen, function(id) desk_paths(dir, desk$observer, id)$record, "")
+  for (id in unseen[file.exists(record)]) {
+    review <- as_value(desk$open(id))
+    if (failed(review)) {
+      crestline_warn(paste("it has a record but is left out:", review$problem), review$remedy,
+                     stage = "desk", id = id, class = "crestline_desk_warning")
+    } else {
+      desk$reviews[[id]] <- review
+    }
+  }
+  desk
+}
+
 #' The specimen of a review, with the curves that were drawn on it
 #' @noRd
 reviewed_specimen <- function(review) {

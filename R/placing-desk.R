@@ -20,7 +20,8 @@
 #'   redo.
 #'
 #' @param specimens Paths of meshes, or a list of [specimen()]s or of `mesh3d` with names. Files are
-#'   read when their turn comes.
+#'   read when their turn comes. NULL (`read_digitised()`): no specimen is read, marks and steps
+#'   only.
 #' @param scheme A [curve_scheme()]: its landmarks and curves.
 #' @param dir Folder for the records, or NULL: nothing is written.
 #' @param observer Name of the person.
@@ -47,8 +48,9 @@
 #'     `action` ("placed", "moved", "confirmed", "absent", "point set", "point moved", "point
 #'     removed", "snapped", "erased"), `time` (UTC);
 #'   * `specimens`: list by id of the [specimen()]s with landmarks and drawn curves, which
-#'     [fit_shape()] measures as they were drawn. Specimens that were not shown are left out.
-#'     `read_digitised()` has none.
+#'     [fit_shape()] measures as they were drawn: those that were shown, and those that the observer
+#'     did before, by their records. `read_digitised()` has those of its argument `specimens` that
+#'     have a record; with several observers their names are "specimen observer".
 #'
 #'   `as.data.frame()` gives `marks`. `as.array()` gives a k x 3 x n array of the measurements, as
 #'   geomorph takes it; names of the third dimension are "specimen", or "specimen observer" with
@@ -90,15 +92,17 @@ digitise <- function(specimens, scheme = face_scheme(), dir = NULL, observer = "
     review_page("Digitise", several = length(sources) > 1, cancel = is.null(dir)),
     desk_server(desk, desk_surfaces("natural", page, view), result = identity), ...
   )
-  digitised_from(desk)
+  digitised_from(with_recorded_reviews(desk, dir))
 }
 
 #' @rdname digitise
 #' @export
-read_digitised <- function(dir, observer = NULL) {
+read_digitised <- function(dir, observer = NULL, specimens = NULL, scheme = face_scheme()) {
   check_given()
   dir <- check_text(dir, "dir")
   observer <- check_names(observer, "observer", null = TRUE)
+  check_class(scheme, "curve_scheme", "scheme", "curve_scheme(), read_scheme() or face_scheme()")
+  sources <- if (!is.null(specimens)) desk_sources(specimens)
   records <- desk_records(dir, observer)
   if (!length(records)) {
     crestline_abort(sprintf("%s has no records of a desk.", dir),
@@ -106,5 +110,6 @@ read_digitised <- function(dir, observer = NULL) {
                     class = "crestline_desk_error")
   }
   new_digitised(do.call(rbind, lapply(records, record_marks, dir = dir)),
-                do.call(rbind, lapply(records, record_steps)), list())
+                do.call(rbind, lapply(records, record_steps)),
+                if (length(sources)) recorded_specimens(records, sources, scheme, dir) else list())
 }

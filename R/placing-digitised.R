@@ -120,6 +120,27 @@ record_marks <- function(record, dir) {
 
 record_steps <- function(record) steps_of(record$specimen, record$observer, record$steps)
 
+#' The specimens of records, by the meshes they were made on: a desk opened again at each
+#'
+#' @param sources As of [desk_sources()].
+#' @noRd
+recorded_specimens <- function(records, sources, scheme, dir) {
+  who <- vapply(records, `[[`, "", "observer")
+  id <- vapply(records, `[[`, "", "specimen")
+  own <- which(id %in% names(sources))
+  lost <- setdiff(names(sources), id)
+  if (length(lost)) {
+    crestline_inform(sprintf("%s no record in %s: %s.", if (length(lost) == 1) "One specimen has" else
+      sprintf("%d specimens have", length(lost)), dir, shorten(lost)))
+  }
+  each <- lapply(own, function(i) {
+    desk <- desk_from(sources[id[i]], scheme, dir, who[i], TRUE, ridge_settings(error = FALSE),
+                      review_settings())
+    reviewed_specimen(current_review(desk))
+  })
+  stats::setNames(each, if (length(unique(who)) > 1) paste(id, who)[own] else id[own])
+}
+
 #' @rdname digitise
 #' @export
 as.data.frame.digitised <- function(x, row.names = NULL, optional = FALSE, ...) {

@@ -11,10 +11,10 @@ review_page <- function(title, several = FALSE, cancel = TRUE) {
     title = title,
     tags$head(shiny::includeCSS(review_file("review.css")),
               tags$meta(name = "viewport", content = "width=device-width, initial-scale=1")),
-    rgl::registerSceneChange(),
     tags$div(
       id = "review",
       tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
+      view_buttons(),
       tags$div(
         id = "side", tags$h2(title), shiny::uiOutput("desk"),
         if (several) tags$div(id = "turn",
@@ -22,15 +22,29 @@ review_page <- function(title, several = FALSE, cancel = TRUE) {
                               button("following", "Next", "The next specimen (N)")),
         shiny::uiOutput("chosen"), review_buttons(button, cancel), shiny::uiOutput("list"),
         tags$p(class = "help", "Click on the surface: the chosen landmark goes there, or the",
-               "chosen curve gets a point. Click on a ball: that one is chosen.",
-               "Drag a ball: it moves. Drag beside: turn. Wheel: nearer or farther.",
-               "Right button and drag: shift."),
+               "chosen curve gets a point. Click on a ball: that one is chosen; then drag it to",
+               "move it. Drag the surface: turn; near the edge of the picture: roll.",
+               "Wheel: nearer or farther. Right button and drag: shift."),
         tags$p(class = "help", "Keys: up, down: the list. Enter: right. Delete: not there, or",
-               "erase. S: snap. U, R: undo, redo.", if (several) "P, N: previous, next specimen.")
+               "erase. S: snap. U, R: undo, redo. 1, 2, 3: its right side, front, its left side.",
+               if (several) "P, N: previous, next specimen.")
       )
     ),
     shiny::includeScript(review_file("review.js")), shiny::includeScript(review_file("ended.js"))
   )
+}
+
+#' Straight views: from the front, and from both sides of the subject
+#' @noRd
+view_buttons <- function() {
+  one <- function(label, degrees, title) {
+    shiny::tags$button(type = "button", class = "btn btn-default", `data-turn` = degrees,
+                       title = title, label)
+  }
+  shiny::tags$div(id = "views",
+                  one("Right side", 90, "The subject's own right side (1)"),
+                  one("Front", 0, "From the front, the whole of it (2)"),
+                  one("Left side", -90, "The subject's own left side (3)"))
 }
 
 review_buttons <- function(button, cancel) {
@@ -114,7 +128,7 @@ scene_server <- function(begin, page, finish) {
     send <- function() {
       changed <- redraw(scene, drawn, page$items(review()))
       drawn <<- changed$drawn
-      session$sendCustomMessage("sceneChange", rgl::sceneChange(
+      session$sendCustomMessage("change", rgl::sceneChange(
         "face", delete = changed$delete, add = changed$add
       ))
       session$sendCustomMessage("balls", page$balls(review(), scene$frame))

@@ -20,11 +20,6 @@ review_step <- function(review, part, level, action) {
   with_said(after, "")
 }
 
-no_steps <- function() {
-  data.frame(part = character(), level = character(), action = character(), by = character(),
-             time = character())
-}
-
 undo_review <- function(review) travel(review, "history", "future", "There is nothing to undo.")
 
 redo_review <- function(review) travel(review, "future", "history", "There is nothing to redo.")

@@ -47,7 +47,6 @@ plotted_instead <- c(
   study_settings = "Plot columns of the study, a data frame.",
   summary_shape_pca = "Plot the components: plot(pca).",
   widget_scene = "Print it; add to it by draw_lines() and draw_points().",
-  visit_comparison = "Write its page: write_page(comparison, file).",
   visit_errors = "Plot the shapes of the two visits: plot(shape).",
   visit_settings = "Plot the shapes of the two visits: plot(shape)."
 )
@@ -94,7 +93,6 @@ plotted_instead <- c(
 #' S3method(plot,simulated_faces,refuse_plot)
 #' S3method(plot,slide_settings,refuse_plot)
 #' S3method(plot,study_settings,refuse_plot)
-#' S3method(plot,visit_comparison,refuse_plot)
 #' S3method(plot,widget_scene,refuse_plot)
 #' S3method(plot,visit_errors,refuse_plot)
 #' S3method(plot,visit_settings,refuse_plot)

@@ -38,12 +38,14 @@ visit_maps <- function(x) {
   card <- function(title, text, ...) {
     tags$figure(face_image(x, xyz, ..., alt = title), tags$figcaption(tags$b(title), text))
   }
-  score <- ifelse(is.na(points$score), NA, points$score)
-  tags$section(tags$h2("Pictures"), tags$div(
+  lost <- sum(is.na(points$change))
+  tags$section(tags$h2("Pictures"), if (lost) tags$p(class = "warn", sprintf(
+    "%d of %s of the surface are missing at one of the visits, and not in the pictures.", lost,
+    amount(nrow(points), "point"))), tags$div(
     class = "maps", card("First visit", " at the points that were measured."),
     card("Change along the surface's normal", sprintf(" in %s.", x$unit), points$change, span,
          ring = points$called),
-    card("Change over its standard error", " with a sign where it is real.", score, 6, x$limit)
+    card("Change over its standard error", " with a sign where it is real.", points$score, 6, x$limit)
   ), sign_legend(span, x$unit), tags$p(
     class = "note", "The scale is that of the second picture; in the third, full colours are 6",
     sprintf("standard errors. Outlined: beyond the limit %.2f,", x$limit),

@@ -208,7 +208,7 @@ job_specimen <- function(job) {
   }
   points <- do.call(read_landmarks, c(list(at), job$reading$landmarks))
   one <- do.call(read_specimen, c(list(job$mesh, points, job$id), job$reading$specimen))
-  with_desk_curves(from_files(one, job$mesh, at), at)
+  with_desk_curves(from_files(one, job$mesh, at), at, names(attr(points, "curves")))
 }
 
 #' What the answers of a job depend on: its content, not the names of its files

@@ -20,7 +20,9 @@
 #' @param file Path of a `.ply`, `.obj` or `.stl` file, also packed by gzip (`.ply.gz`).
 #' @param landmarks Path of a landmark file, see [read_landmarks()], or landmarks as for
 #'   [specimen()]; in the unit of the mesh. A file or folder of several specimens, a list of
-#'   matrices or a k x 3 x n array is searched for the specimen `id`. NULL: none.
+#'   matrices or a k x 3 x n array is searched for the specimen `id`. With an observer's folder of
+#'   [digitise()], or a table in it, the specimen gets the curves that were drawn there too. NULL:
+#'   none.
 #' @param id Name of the specimen, one string. NULL: the file's name without its extension (and
 #'   without `.gz`).
 #' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` renames
@@ -54,8 +56,18 @@ read_specimen <- function(file, landmarks = NULL, id = NULL, ..., names = NULL) 
   id <- check_id(id)
   beside <- if (is.character(landmarks) && length(landmarks) == 1 &&
                 is.null(dim(landmarks))) landmarks else NA_character_
-  own <- renamed_landmarks(as_landmarks(landmarks_of(landmarks, id), id), names, id)
-  from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
+  found <- landmarks_of(landmarks, id)
+  own <- renamed_landmarks(as_landmarks(found, id), names, id)
+  one <- from_files(specimen(read_mesh(file, id), own, id, ...), file, beside)
+  with_desk_curves(one, own_table(beside, id), names(attr(found, "curves")))
+}
+
+#' The file of a specimen's own landmarks in a folder; a path of a file is itself
+#' @noRd
+own_table <- function(path, id) {
+  if (is.na(path) || !dir.exists(path)) return(path)
+  own <- landmarks_for(path, id)[[1]]
+  if (is.character(own)) own else NA_character_
 }
 
 #' Landmarks with some names changed; a new name must not be another landmark's

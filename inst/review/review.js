@@ -4,7 +4,9 @@
 
   var still = 4,  // pixels that the pointer may move between press and release for a click
       near = 12,  // pixels from a ball's middle within which it is taken
-      balls = [], dragged = null;
+      speed = 0.0016,  // share by which a pixel of the wheel zooms; a notch has about 100
+      most = 4, least = 0.02,  // of the zoom: shares of the whole scene that are seen
+      balls = [], dragged = null, start = null;
 
   function scene() {
     var view = document.getElementById("face");
@@ -36,8 +38,38 @@
     rgl.drawScene();
   }
 
+  // Nearer or farther; the place under the pointer stays there.
+  function zoom(rgl, event) {
+    var par = rgl.getObj(rgl.scene.rootSubscene).par3d, box = rgl.canvas.getBoundingClientRect(), before = par.zoom, pixels,
+        x = 2 * (event.clientX - box.left) / box.width - 1, y = 1 - 2 * (event.clientY - box.top) / box.height, moved = par.userProjection;
+    pixels = event.deltaY * [1, 33, 400][event.deltaMode];
+    par.zoom = Math.min(most, Math.max(least, before * Math.exp(speed * Math.max(-300, Math.min(300, pixels)))));
+    moved = new CanvasMatrix4(moved);
+    moved.translate((x - moved.m41) * (1 - before / par.zoom), (y - moved.m42) * (1 - before / par.zoom), 0);
+    par.userProjection = moved;
+    rgl.drawScene();
+  }
+
+  // The whole scene as at first, or from there turned about its vertical, by degrees.
+  function turn(degrees) {
+    var rgl = scene();
+    if (!rgl || !start) return;
+    var par = rgl.getObj(rgl.scene.rootSubscene).par3d, matrix = new CanvasMatrix4(start.matrix);
+    matrix.rotate(degrees, 0, 1, 0);
+    par.userMatrix = matrix;
+    par.userProjection = new CanvasMatrix4(start.projection);
+    par.zoom = start.zoom;
+    rgl.drawScene();
+  }
+
   function watch(view) {
     var pressed = null, shifted = null;
+    view.addEventListener("wheel", function (event) {
+      if (!scene()) return;
+      event.preventDefault();
+      event.stopPropagation();
+      zoom(scene(), event);
+    }, { capture: true, passive: false });
     view.addEventListener("pointerdown", function (event) {
       var rgl = scene();
       pressed = event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
@@ -119,8 +151,9 @@
   document.addEventListener("click", function (event) {
     // After a click of the mouse keys are those of the page again
     if (event.detail > 0 && event.target.closest("#buttons button, #turn button")) document.activeElement.blur();
-    var row = event.target.closest("[data-landmark], [data-curve]");
+    var row = event.target.closest("[data-landmark], [data-curve], [data-turn]");
     if (!row) return;
+    if (row.hasAttribute("data-turn")) { row.blur(); turn(+row.getAttribute("data-turn")); return; }
     if (row.hasAttribute("data-landmark")) send("select", row.getAttribute("data-landmark"));
     else send("curve", row.getAttribute("data-curve"));
   });
@@ -137,6 +170,11 @@
       if (!document.getElementById("redo")) return;
       event.preventDefault();
       send("choose", event.key === "ArrowDown" ? 1 : -1);
+      return;
+    }
+    if (/^[123]$/.test(event.key) && !event.ctrlKey && !event.metaKey) {
+      var side = document.querySelectorAll("[data-turn]")[event.key - 1];
+      if (side) turn(+side.getAttribute("data-turn"));
       return;
     }
     if (id === "absent" && document.querySelector(".row.curve.chosen")) id = "erase";
@@ -156,6 +194,15 @@
     if (event.name === "face") shown();
   });
 
+  // rgl would turn the matrix of a shifted view over at every change of its objects: it is put back before they are drawn.
+  function change(message) {
+    var rgl = document.getElementById(message.elementId).rglinstance, root = rgl.getObj(rgl.scene.rootSubscene),
+        kept = new CanvasMatrix4(root.par3d.userProjection);
+    rglwidgetClass.prototype.sceneChangeHandler(Object.assign({}, message, { redrawScene: false }));
+    root.par3d.userProjection = kept;
+    rgl.drawScene();
+  }
+
   // The surface is there once rgl has a canvas: then the server may send landmarks and curves.
   function shown() {
     var before = scene() && scene().scene;
@@ -163,11 +210,14 @@
     var waiting = setInterval(function () {
       if (!scene() || !scene().canvas || !scene().scene || scene().scene === before) return;
       clearInterval(waiting);
+      var par = scene().getObj(scene().scene.rootSubscene).par3d;
+      start = { matrix: new CanvasMatrix4(par.userMatrix), projection: new CanvasMatrix4(par.userProjection), zoom: par.zoom };
       send("ready", Date.now());
     }, 50);
   }
 
   $(document).on("shiny:connected", function () {
+    Shiny.addCustomMessageHandler("change", change);
     Shiny.addCustomMessageHandler("balls", function (sent) { balls = sent; });
     watch(document.getElementById("view"));
   });

@@ -36,7 +36,7 @@ test_that("lengths and areas are those of the shape's polylines and triangles", 
   cross <- cross_rows(corner[[2]] - corner[[1]], corner[[3]] - corner[[1]])
   expect_equal(value[["face"]], sum(sqrt(rowSums(cross^2))) / 2)
   expect_equal(found$reason[5], "no draws")
-  expect_equal(found$reason[1], "no standard error of its points")
+  expect_match(found$reason[1], "no standard error of its points: give .*`error`")
 })
 
 test_that("a pyramid's volume over its base is a third of area times height", {
@@ -90,8 +90,30 @@ test_that("a sample gives a row for each shape, and what is missing says why", {
   lost <- ball_shape()
   lost$points[lost$points$part == "n", c("x", "y", "z")] <- NA
   found <- measurements(lost, ball_measurements(), error = 1, draws = 0)
-  expect_identical(found$reason[2], "a point is missing")
+  expect_identical(found$reason[2], "points are missing: n")
+  # The ratio lacks what its measurement lacks
+  expect_identical(found$reason[4], "points are missing: n")
   expect_true(all(is.na(found$value[c(2, 3, 4, 7)])))
+})
+
+test_that("a batch gives the rows of its shapes, and names those that failed", {
+  skip_without_futures()
+  made <- argument_objects()
+  dir <- tempfile("scans")
+  dir.create(dir)
+  on.exit(unlink(dir, recursive = TRUE))
+  files <- file.path(dir, c("one.ply", "two.ply", "broken.ply"))
+  for (i in 1:2) write_mesh(made$specimens[[i]]$mesh, files[i])
+  writeLines("no mesh", files[3])
+  marks <- lapply(made$specimens[c(1, 2, 2)], `[[`, "landmarks")
+  batch <- suppressWarnings(fit_shapes(
+    files, made$scheme, progress = FALSE, landmarks = stats::setNames(marks, c("one", "two",
+                                                                              "broken"))
+  ))
+  expect_message(found <- measurements(batch, ball_measurements(), draws = 0),
+                 "without 1 specimen that failed: broken")
+  each <- lapply(as.list(batch)[c("one", "two")], measurements, ball_measurements(), draws = 0)
+  expect_equal(found, do.call(rbind, unname(each)), ignore_attr = TRUE)
 })
 
 test_that("the table of the face fits its scheme; wrong tables are refused by name", {

@@ -133,3 +133,37 @@ test_that("a second visit in another unit is refused", {
   expect_error(compare_visits(made$sample[[1]], metres), "0[.]00[0-9]* times",
                class = "crestline_unit_error")
 })
+
+test_that("points that are missing are left out of picture and page, which say so", {
+  made <- two_visits(4)
+  lost <- function(shape, rows) {
+    shape$points[which(shape$points$level == "surface")[rows], c("x", "y", "z")] <- NA
+    shape
+  }
+  found <- compare_visits(lost(made$sample[[1]], 1:5), lost(made$second[[1]], 4:8))
+  own <- found$points[found$points$level == "surface", ]
+  expect_equal(which(is.na(own$change)), 1:8)
+  # Places, as points of two patches may share one
+  mesh <- points_mesh(as.matrix(own[c("x", "y", "z")]), found$triangles)
+  row <- attr(mesh, "row")
+  expect_false(any(1:5 %in% row))
+  expect_true(all(is.finite(mesh$vb)))
+  gone <- colSums(matrix(found$triangles %in% 1:5, 3)) > 0
+  expect_equal(ncol(mesh$it), sum(!gone))
+  expect_equal(matrix(row[mesh$it], 3), unname(found$triangles[, !gone]))
+  skip_if_not_installed("htmltools")
+  file <- tempfile(fileext = ".html")
+  on.exit(unlink(file))
+  write_page(found, file)
+  expect_match(paste(readLines(file, encoding = "UTF-8"), collapse = " "),
+               sprintf("8 of %d points of the surface are missing", nrow(own)))
+  grDevices::pdf(NULL)
+  on.exit(grDevices::dev.off(), add = TRUE)
+  expect_identical(plot(found, engine = "picture"), found)
+  expect_identical(plot(found, "score", engine = "picture"), found)
+  found$points$score <- NA
+  expect_crestline_error(plot(found, "score", engine = "picture"), "error")
+  found$points[c("x", "y", "z")] <- NA
+  expect_error(points_mesh(as.matrix(found$points[c("x", "y", "z")]), found$triangles),
+               class = "crestline_error")
+})

@@ -97,6 +97,16 @@ test_that("fit_shapes() finds the tables of a desk by the names of the scans", {
   expect_match(status_of(shapes[[1]], "bottom")$reason, "drawn by hand (A B", fixed = TRUE)
   expect_equal(shapes[[1]]$points$x, direct$points$x, tolerance = 1e-12)
   expect_false(any(grepl("by hand", status_of(shapes[[2]], "bottom")$reason)))
+  # One specimen alone, from the folder or its own table; a copy without its record says what it lacks
+  table <- file.path(folder, "a b.csv")
+  for (landmarks in c(folder, table)) {
+    expect_equal(read_specimen(files[1], landmarks)$drawn, own$drawn, tolerance = 1e-12)
+  }
+  copy <- file.path(dir, "copy.csv")
+  file.copy(table, copy)
+  expect_message(alone <- read_specimen(files[1], copy), "1 curve (bottom), which is not measured",
+                 fixed = TRUE, class = "crestline_message")
+  expect_null(alone$drawn)
   # A later step is measured anew, not taken from the former results
   desk <- on_current(turn_to(desk, -1), erase_curve)
   expect_false(any(grepl("by hand", status_of(fit(file.path(dir, "out"))[[1]], "bottom")$reason)))
@@ -225,6 +235,43 @@ test_that("two observers make a table, an array for geomorph and repeatability()
   expect_error(read_digitised(dir), "table of its curves", class = "crestline_desk_error")
   expect_crestline_error(read_digitised(tempdir(check = TRUE), "nobody"), "no records")
   unlink(dir, recursive = TRUE)
+})
+
+test_that("finished specimens come back without being shown, from the desk and from its folder", {
+  dir <- tempfile("desk")
+  on.exit(unlink(dir, recursive = TRUE))
+  desk <- two_balls(dir)
+  for (name in c("a", "b", "c")) desk <- place_at(desk, name)
+  desk <- draw_at(desk, "bottom", c(0, -0.35, 1))
+  desk <- turn_to(desk, 1)
+  for (name in c("a", "b", "c", "d")) desk <- place_at(desk, name)
+  all <- digitised_from(desk)
+  # The next day only the first is shown, and it is not touched
+  again <- digitised_from(with_recorded_reviews(two_balls(dir), dir))
+  expect_equal(again$marks, all$marks)
+  expect_equal(again$steps, all$steps, ignore_attr = TRUE)
+  expect_named(again$specimens, c("one", "two"))
+  for (id in c("one", "two")) {
+    expect_equal(again$specimens[[id]]$landmarks, all$specimens[[id]]$landmarks)
+    expect_equal(again$specimens[[id]]$drawn, all$specimens[[id]]$drawn)
+  }
+  meshes <- list(one = quad_specimen(), two = desk$reviews$two$specimen)
+  read <- read_digitised(dir, specimens = meshes, scheme = quad_scheme())
+  expect_named(read$specimens, c("one", "two"))
+  expect_equal(read$specimens$one$drawn, all$specimens$one$drawn)
+  expect_equal(read$specimens$two$landmarks, all$specimens$two$landmarks)
+  expect_identical(is.na(read$specimens$one$landmarks["d", 1]), TRUE)
+  place_at(two_balls(dir, "CD"), "a")
+  expect_message(both <- read_digitised(dir, specimens = c(meshes["one"], other = meshes["two"]),
+                                        scheme = quad_scheme()), "no record .*: other")
+  expect_named(both$specimens, c("one AB", "one CD"))
+  expect_length(read_digitised(dir)$specimens, 0)
+  # Of one without its mesh the rest is still there
+  record <- file.path(dir, "AB", "records", "two.json")
+  writeLines(sub("\"mesh\": \"[^\"]*\"", "\"mesh\": \"other\"", readLines(record)), record)
+  expect_warning(left <- with_recorded_reviews(two_balls(dir), dir), "two.*left out.*another mesh",
+                 class = "crestline_desk_warning")
+  expect_named(digitised_from(left)$specimens, "one")
 })
 
 test_that("specimens of a desk have names of their own", {
