@@ -168,9 +168,53 @@ snapped_line <- function(review, name, line) {
     return(no_result(sprintf("There is no %s beside %s: %s.", row$kind, name, curve$reason),
                      "It stays as it was drawn.", "curves"))
   }
+  line$doubt <- snap_doubt(curve, line$path, row$radius)
   line$path <- curve$path
   line$snapped <- TRUE
   line
+}
+
+#' Why a snapped line is doubtful: the ridge is not clear there, or the line went far or got a kink
+#'
+#' @param drawn Path as it was drawn.
+#' @param far Distance from the drawn line, in radii, beyond which it is doubted.
+#' @param sharp Turn within half a radius, in degrees, that is a kink where the drawn line has none.
+#' @return Text, NA without a doubt.
+#' @noRd
+snap_doubt <- function(curve, drawn, radius, far = 0.5, sharp = 60) {
+  places <- function(path) {
+    at <- columns_of(path, c("x", "y", "z"))
+    along <- c(0, cumsum(row_lengths(diff(at))))
+    n <- max(4, ceiling(4 * along[length(along)] / radius))
+    apply(at, 2, function(v) stats::approx(along, v, n = n + 1, ties = "ordered")$y)
+  }
+  turn <- function(at) {
+    step <- diff(at, lag = 2)
+    if (nrow(step) < 3) return(0)
+    one <- step[seq_len(nrow(step) - 2), , drop = FALSE]
+    two <- step[-(1:2), , drop = FALSE]
+    cosine <- row_products(one, two) / (row_lengths(one) * row_lengths(two))
+    max(180 / pi * acos(pmin(1, pmax(-1, cosine))))
+  }
+  before <- places(drawn)
+  after <- places(curve$path)
+  off <- max(apply(after, 1, function(at) sqrt(min(colSums((t(before) - at)^2)))))
+  kink <- turn(after)
+  said <- c(if (curve$determined %in% FALSE) curve$reason,
+            if (off > far * radius) sprintf("it went %.2g from where it was drawn", off),
+            if (kink > sharp && kink > turn(before)) sprintf("it has a kink of %.0f degrees", kink))
+  if (length(said)) paste(said, collapse = "; ") else NA_character_
+}
+
+#' What is doubtful of a curve as it is shown: of a snapped line, or of the one that was found
+#' @return Text, NA without a doubt or a curve.
+#' @noRd
+curve_doubt <- function(review, name) {
+  line <- review$drawn[[name]]
+  if (!is.null(line)) return(c(if (line$snapped) line$doubt, NA_character_)[1])
+  fit <- review$fitting$fits[[name]]
+  if (is.null(fit$path) || !fit$determined %in% FALSE) NA_character_ else
+    sub("[.]$", "", c(fit$reason, NA_character_)[1])
 }
 
 #' A drawn line with its kinks taken out: its places, a radius apart, on the crest beside each
@@ -214,6 +258,7 @@ line_words <- function(name, line) {
   paste0(name, ": ", amount(nrow(line$knots), "point"),
          if (!is.null(length)) sprintf(", %.4g long", length),
          if (line$snapped) ", snapped to the ridge",
+         if (line$snapped && !is.na(c(line$doubt, NA)[1])) "; look at it: undo if it is worse",
          if (!is.na(line$problem)) paste0("; ", line$problem))
 }
 

@@ -90,10 +90,20 @@ with_recorded_reviews <- function(desk, dir) {
 #' @noRd
 reviewed_specimen <- function(review) {
   drawn <- drawn_points(review)
-  if (length(drawn) || !is.null(review$specimen$drawn)) {
-    return(with_fields(review$specimen, drawn = if (length(drawn)) drawn))
+  specimen <- review$specimen
+  # What is missing now, not when it was read
+  row <- which(specimen$report$check == "landmarks missing")
+  missing <- rownames(specimen$landmarks)[is.na(specimen$landmarks[, 1])]
+  if (length(row) == 1 && specimen$report$count[row] != length(missing)) {
+    report <- specimen$report
+    report[row, ] <- report_row("landmarks missing", length(missing),
+                                paste("kept as missing:", shorten(missing)))
+    specimen <- with_fields(specimen, report = report)
   }
-  review$specimen
+  if (length(drawn) || !is.null(specimen$drawn)) {
+    return(with_fields(specimen, drawn = if (length(drawn)) drawn))
+  }
+  specimen
 }
 
 #' The curves that a specimen brings, as drawn lines to go on with

@@ -263,8 +263,9 @@ fitting_progress <- function(session) {
 chosen_html <- function(review) {
   tags <- shiny::tags
   waiting <- sum(is_open(review))
-  left <- if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else
-    "No landmark is missing or doubtful"
+  unplaced <- sum(review$state == "missing")
+  left <- if (unplaced) sprintf("%s to place", amount(unplaced, "landmark")) else
+    if (waiting) sprintf("%s to look at", amount(waiting, "landmark")) else done_words(review)
   mirrored <- if (specimen_slips(review$specimen)$mirrored) {
     tags$p(class = "warning",
            "Left and right look mirrored: names that end in L belong to the subject's own left.")
@@ -284,6 +285,21 @@ chosen_html <- function(review) {
            side_line(review, name, "landmarks"), record_line(review, name, "landmarks"),
            tags$p(left), said, mirrored,
            curves_at(review, name))
+}
+
+#' What there is to say when no landmark waits; what absent ones cost, and the remedy
+#' @noRd
+done_words <- function(review) {
+  absent <- names(which(review$state == "absent"))
+  if (!length(absent)) {
+    return("No landmark is missing or doubtful: look at the curves, draw them, or go on")
+  }
+  scheme <- review$fitting$scheme
+  cut <- scheme$curves$curve[scheme$curves$from %in% absent | scheme$curves$to %in% absent]
+  lost <- if (length(cut)) sprintf(": %s cannot be measured, nor the patches between them. %s",
+                                   amount(length(cut), "curve"),
+                                   "Predict them in R: find_landmarks(specimen) keeps the others")
+  paste0(amount(length(absent), "landmark"), " not on this scan (", shorten(absent, 4), ")", lost)
 }
 
 side_line <- function(review, name, level) {
@@ -307,7 +323,9 @@ chosen_curve <- function(review) {
     tags$p(class = "where", sprintf("from %s to %s", row$from, row$to)),
     side_line(review, review$pen, "curves"), record_line(review, review$pen, "curves"),
     tags$p(if (is.null(line)) "Click along it: the line follows the surface." else
-      line_words(review$pen, line))
+      line_words(review$pen, line)),
+    if (!is.na(doubt <- curve_doubt(review, review$pen))) tags$p(class = "warning",
+                                                                  paste0("Look at it: ", doubt, "."))
   )
 }
 
@@ -327,7 +345,9 @@ curves_at <- function(review, name) {
   said <- paste0(curves$curve[own], ": ", curves$kind[own],
                  ifelse(is.na(length), "", sprintf(", %.4g long", length)),
                  ifelse(is.na(reason), "", paste0("; ", reason)))
-  tags$details(tags$summary(amount(length(own), "curve")), tags$ul(lapply(said, tags$li)))
+  tags$details(tags$summary(paste(
+    amount(length(own), "curve"), if (length(own) == 1) "ends here" else "end here"
+  )), tags$ul(lapply(said, tags$li)))
 }
 
 #' What looks exchanged among the landmarks of a specimen as they are now
@@ -360,8 +380,12 @@ list_html <- function(review) {
     name <- curves$curve[i]
     line <- review$drawn[[name]]
     state <- if (is.null(line)) "" else if (line$snapped) "snapped" else "drawn"
-    list_row("curve", name, curves$kind[i], state, kind_colours[[curves$kind[i]]], state,
-             identical(name, review$pen), record_words(review, name, "curves"))
+    doubt <- curve_doubt(review, name)
+    list_row("curve", name, curves$kind[i],
+             if (is.na(doubt)) state else paste(c(state[nzchar(state)], "look"), collapse = ", "),
+             kind_colours[[curves$kind[i]]], c(state, if (!is.na(doubt)) "doubtful"),
+             identical(name, review$pen),
+             c(record_words(review, name, "curves"), if (!is.na(doubt)) doubt))
   })
   tags$div(id = "landmarks", rows, lines)
 }
@@ -370,7 +394,8 @@ list_row <- function(kind, name, words, told, colour, state, chosen, record) {
   tags <- shiny::tags
   given <- stats::setNames(list(name), paste0("data-", kind))
   do.call(tags$button, c(given, list(
-    type = "button", class = paste("row", kind, state, if (chosen) "chosen"), title = record,
+    type = "button", class = paste(c("row", kind, state, if (chosen) "chosen"), collapse = " "),
+    title = if (length(record)) paste(record, collapse = "; "),
     tags$span(class = "dot", style = paste0("background:", colour)), tags$b(name),
     tags$span(class = "long", words), tags$span(class = "state", told)
   )))

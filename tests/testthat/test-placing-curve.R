@@ -116,3 +116,24 @@ test_that("what cannot be drawn or snapped is said", {
   expect_equal(choose_curve(review, "crest")$pen, character())
   expect_identical(choose_curve(review, "none")$pen, "crest")
 })
+
+test_that("a snapped line that went far, got a kink, or has no clear ridge is doubted", {
+  path_of <- function(y) {
+    x <- seq(0, 20, length.out = length(y))
+    data.frame(x = x, y = y, z = 0, face = 1, w1 = 1, w2 = 0, w3 = 0)
+  }
+  drawn <- path_of(rep(0, 41))
+  curve <- function(y, determined = TRUE, reason = NA) {
+    list(path = path_of(y), determined = determined, reason = reason)
+  }
+  expect_identical(snap_doubt(curve(rep(0.5, 41)), drawn, 5), NA_character_)
+  expect_match(snap_doubt(curve(rep(3, 41)), drawn, 5), "it went 3 from where it was drawn")
+  # A hook at the corner: down and back
+  hook <- snap_doubt(curve(c(rep(0, 20), -2.4, rep(0, 20))), drawn, 1)
+  expect_match(hook, "kink of 1[0-9][0-9] degrees")
+  # A kink that was drawn is not one of the snap
+  expect_no_match(snap_doubt(curve(c(rep(0, 20), -2.4, rep(0, 20))),
+                             path_of(c(rep(0, 20), -2.4, rep(0, 20))), 1), "kink")
+  expect_match(snap_doubt(curve(rep(0, 41), FALSE, "it runs along the edge of the window"), drawn,
+                          5), "edge of the window")
+})

@@ -246,6 +246,9 @@ test_that("finished specimens come back without being shown, from the desk and f
   desk <- turn_to(desk, 1)
   for (name in c("a", "b", "c", "d")) desk <- place_at(desk, name)
   all <- digitised_from(desk)
+  report <- all$specimens$one$report
+  expect_identical(as.integer(report$count[report$check == "landmarks missing"]), 1L)
+  expect_match(report$action[report$check == "landmarks missing"], "kept as missing: d")
   # The next day only the first is shown, and it is not touched
   again <- digitised_from(with_recorded_reviews(two_balls(dir), dir))
   expect_equal(again$marks, all$marks)

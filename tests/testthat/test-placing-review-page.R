@@ -94,7 +94,7 @@ test_that("the page says who is chosen, where it belongs, what waits, sides exch
   expect_match(as.character(chosen_html(review)), "Choose a landmark")
   review <- select_landmark(review, "enR")
   said <- as.character(chosen_html(review))
-  for (words in c("endocanthion", "inner corner of the eye fissure", "3 curves",
+  for (words in c("endocanthion", "inner corner of the eye fissure", "3 curves end here",
                   "No landmark is missing")) expect_match(said, words)
   expect_no_match(said, "mirrored")
   rownames(face$landmarks) <- chartr("LR", "RL", rownames(face$landmarks))
