@@ -72,7 +72,7 @@ curvature <- function(mesh, radius, order = "adaptive",
   warn_wide_radius(radius, whole)
   n <- ncol(mesh$vb)
   targets <- vertex_indices(vertices, n)
-  out <- curvature_at(mesh_graph(mesh), targets, settings, threads)
+  out <- curvature_at(mesh_graph(passed_mesh(mesh, NULL)), targets, settings, threads)
   if (length(targets) > 0 && all(is.na(out$k1))) abort_radius(out$neighbours, radius)
   if (!is.null(vertices)) out <- fill_curvature(empty_curvature(n, "not asked for"), out, targets)
   new_curvature(out, radius, order, of)
@@ -153,7 +153,7 @@ curvature_at <- function(graph, vertices, settings, threads) {
 #' @noRd
 curvature_source <- function(mesh, settings, threads) {
   force(threads)
-  passed <- list(passed = passed_mesh(mesh, NULL))
+  passed <- passed_mesh(mesh, NULL)
   row <- integer(ncol(mesh$vb))
   # All numbers of a vertex in a row, with room for more, so that little is copied when some come.
   known <- matrix(NA_real_, 0, 12)

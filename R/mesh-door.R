@@ -75,11 +75,10 @@ refuse_no_vertices <- function(id) {
 #' The mesh with the neighbours and normals of its vertices, as searches about vertices take it
 #'
 #' It is made when it is first asked for, and kept with what is known of the mesh.
-#' @param mesh A `mesh3d`, or a list with `passed`, as of [passed_mesh()].
+#' @param known As of [passed_mesh()].
 #' @return External pointer.
 #' @noRd
-mesh_graph <- function(mesh) {
-  known <- if (is.environment(mesh[["passed"]])) mesh[["passed"]] else passed_mesh(mesh, NULL)
+mesh_graph <- function(known) {
   if (is.null(known$graph)) known$graph <- cpp_mesh_graph(known$vb, known$it)
   known$graph
 }

@@ -45,7 +45,7 @@ near_path <- function(scan, path, width, margin) {
   clear <- without_stubs(path)
   track <- t(columns_of(clear, c("x", "y", "z")))
   length <- attr(path, "length")
-  found <- cpp_near_path(mesh_graph(scan), track, path_normals(scan, clear), is_closed(path),
+  found <- cpp_near_path(mesh_graph(scan$passed), track, path_normals(scan, clear), is_closed(path),
                          path$face, width, margin, length)
   inside <- found$s >= 0 & found$s <= length & abs(found$d) <= width
   columns <- list(vertex = found$vertex, s = found$s, d = found$d, inside = inside,

@@ -44,7 +44,7 @@ moment_noise <- function(scan, window, radius, settings, most = Inf, factor = TR
     rows <- rows[thinned$rows]
   }
   covariance <- function(other, smooth) cpp_curvature_covariance(
-    mesh_graph(scan), window$coordinates$vertex[rows],
+    mesh_graph(scan$passed), window$coordinates$vertex[rows],
     t(strength$direction[rows, , drop = FALSE]), margins, target,
     window$coordinates$vertex[fitted], sigma, other, c(smooth, attr(known, "direction")),
     kernel_settings(radius, settings$order)

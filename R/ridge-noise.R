@@ -156,7 +156,7 @@ compared_vertices <- function(scan, near, reach, points, fits = 5) {
   edge <- mean(row_lengths(xyz[inside[1, ], , drop = FALSE] - xyz[inside[2, ], , drop = FALSE]))
   if (length(kept) < 100) return(list(xyz = xyz[kept, , drop = FALSE]))
   settings <- kernel_settings(fits * edge, "quadratic")
-  normal <- curvature_at(mesh_graph(scan), kept, settings, 1L)$normal
+  normal <- curvature_at(mesh_graph(scan$passed), kept, settings, 1L)$normal
   fitted <- !is.na(normal[, 1])
   list(xyz = xyz[kept[fitted], , drop = FALSE], normal = normal[fitted, , drop = FALSE],
        edge = edge, extent = extent)

@@ -46,14 +46,17 @@ near_names <- function(name, known) {
   sprintf("Near names: %s.", shorten(near))
 }
 
-describe_value <- function(x) {
+describe_value <- function(x, most = 60) {
   if (is.null(x)) return("NULL")
   if (!is.atomic(x)) return(paste0("of class ", class(x)[1]))
   if (is.array(x)) {
     return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array",
                    paste(dim(x), collapse = " x ")))
   }
-  shown <- paste(shorten_text(utils::head(format(x), 3)), collapse = ", ")
+  first <- utils::head(format(x), 3)
+  long <- nchar(first) > most
+  first[long] <- paste0(substr(first[long], 1, most - 3), "...")
+  shown <- paste(first, collapse = ", ")
   if (length(x) > 3) return(paste0(shown, ", ... (", length(x), " values)"))
   if (!length(x)) "empty" else if (identical(shown, "")) "an empty string" else shown
 }
@@ -63,10 +66,6 @@ describe_range <- function(lower, upper, open) {
   bounds <- c(lower, upper)
   paste(paste(words, bounds)[is.finite(bounds)], collapse = " and ")
 }
-
-shorten_text <- function(x, most = 60) ifelse(
-  nchar(x) > most, paste0(substr(x, 1, most - 3), "..."), x
-)
 
 comment_text <- function(text) {
   gsub("\\", "/", iconv(enc2utf8(text), "UTF-8", "ASCII", sub = "?"), fixed = TRUE)
