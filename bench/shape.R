@@ -9,7 +9,7 @@
 #   CRESTLINE_SHARED=../shared/data Rscript bench/shape.R passes [times = 5] (processor seconds of
 #   the face and of ten ridge curves, by the default and by one pass)
 #
-# "raw": from the file of the scan, without landmarks, to the model. Processor time (user and system)
+# "raw": from the file of the scan, without landmarks, to the model. Processor time (user, system)
 # and elapsed time of each step: `door` is read_specimen(), `scheme` face_scheme(), `find`
 # find_landmarks(), `fit` fit_shape() with standard errors and checks. A first round warms the
 # session; its scheme is the one that reads the tables.
