@@ -211,7 +211,7 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
     class = "group_comparison"
   )
   warn_unequal_spread(compared)
-  warn_few_orders(compared$least, "comparison")
+  warn_few_orders(compared$least, "comparison", exact = isTRUE(compared$exact))
   compared
 }
 

@@ -121,10 +121,13 @@ least_of_orders <- function(orders, design) {
 }
 
 #' @param level Least p-value that is called significant.
+#' @param exact Whether all regroupings are used, so that no `n_perm` helps.
 #' @noRd
-warn_few_orders <- function(least, stage, level = 0.05) {
+warn_few_orders <- function(least, stage, level = 0.05, exact = FALSE) {
   if (least <= level) return(invisible())
-  crestline_warn(sprintf("no p-value can be below %.2g: there are too few permutations.", least),
-                 "Give a greater `n_perm`; where all orders are used, more specimens are needed.",
+  crestline_warn(sprintf("no p-value can be below %.2g: there are too few %s.", least,
+                         if (exact) "specimens" else "permutations"),
+                 if (exact) "All regroupings are used: more specimens are needed." else
+                   "Give a greater `n_perm`; where all orders are used, more specimens are needed.",
                  stage = stage, class = "crestline_few_permutations")
 }

@@ -15,7 +15,9 @@ as_landmarks <- function(x, id = NULL) {
   }
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3) {
     refuse_landmarks(sprintf("`landmarks` are %s, not a k x 3 numeric matrix.", describe_shape(x)),
-                     "Give a matrix with one row a landmark, or a data frame name, x, y, z.", id)
+                     if (length(dim(x)) == 3 && dim(x)[3] == 1)
+                       "Give the matrix of the one specimen: landmarks[, , 1]." else
+                       "Give a matrix with one row a landmark, or a data frame name, x, y, z.", id)
   }
   name <- rownames(x)
   if (nrow(x) && (is.null(name) || anyNA(name) || any(!nzchar(name)))) {

@@ -287,7 +287,8 @@ landmark_format <- function(file) {
   format <- match(extension, tolower(names(formats)))
   if (is.na(format)) {
     first <- if (extension %in% c("gz", "bz2", "xz", "zip")) "Unpack it first. " else
-      if (extension %in% c("xlsx", "xls", "ods")) "Save the sheet as CSV. "
+      if (extension %in% c("xlsx", "xls", "ods")) "Save the sheet as CSV. " else
+      if (extension == "txt") "Read Morphologika by geomorph::read.morphologika(). "
     crestline_abort(
       sprintf("`file`: no landmark format has the extension of %s.", basename(file)),
       paste0(first, "Known: ", paste0(".", names(formats), collapse = ", "), "."),

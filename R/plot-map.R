@@ -23,7 +23,7 @@ plot_map <- function(x, level, engine, view, legend, main, ...) {
       "distance between the means"
     },
     if (surface) "outlined" else "ringed", held_words[[look$adjust]], look$significance, found,
-    nrow(points)
+    sum(!is.na(points$p_adjusted))
   )
   draw_map(points, if (surface) points$distance else points$displacement, surface,
            aligned$triangles, if (is.null(main)) words else main, given, engine, view, legend)

@@ -39,6 +39,9 @@ write_picture <- function(x, file, ..., title = NULL, size = c(16, 14), dpi = 30
   more <- list(...)
   check_pixels(prod(size / 2.54) * dpi^2, dpi)
   more$engine <- "picture"
+  # The key of a map names the unit too
+  map <- inherits(x, "group_comparison") && identical(more$what, "map")
+  if (map && !missing(unit) && is.null(more$length_unit)) more$length_unit <- unit
   made <- tempfile(fileext = paste0(".", file_extension(file)))
   # A PDF has no pixels of its own
   old <- options(crestline.dpi = dpi)

@@ -31,7 +31,8 @@
 #' @return Object of class `curve`, a list:
 #'   * `points`: data frame with n rows, which `as.data.frame()` gives; lengths in the unit of the
 #'     mesh. Columns: `point`, `s` (arc length along the curve), `x`, `y`, `z`, `d` (signed distance
-#'     from the reference path), `se` (standard error across the curve), `face`, `w1`, `w2`, `w3`.
+#'     from the reference path), `se` (standard error across the curve; 0 at the
+#'     landmarks, which are taken as exact), `face`, `w1`, `w2`, `w3`.
 #'     If no ridge was found, the points lie on the reference path, and `d` is NA;
 #'   * `path`: the whole curve, a `mesh_path`; `length`: its length; `length_se`: the standard error
 #'     of the length;
@@ -97,8 +98,10 @@
 #'   that is as good. The standard error does not know of either, so that its band is too narrow
 #'   where noise is high.
 #' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,
-#'   or an argument is wrong. The error names the specimen, the stage and the remedy. A hole between
-#'   the landmarks is such an error: unlike [fit_shape()], `ridge_curve()` does not bridge holes.
+#'   or an argument is wrong. The error names the specimen, the stage and the remedy. Unlike
+#'   [fit_shape()], `ridge_curve()` does not bridge holes. A hole that no plane cut passes is such an
+#'   error. If a cut passes beside it, the curve may run round it; `determined` is FALSE if it so
+#'   reaches the edge of the window.
 #' @section Curvature along a curve: `predict(curve$surface, s, d)` at the points' `s` and `d` gives
 #'   the smoothed strength, whose mean is `strength`. [curvature()] gives the principal curvatures
 #'   at the vertices, without smoothing along the curve. The orders of the local fits differ:
@@ -120,6 +123,8 @@
 #' lip <- ridge_curve(face, "chL", "st", "valley", radius = 5, width = 6, n = 9)
 #' lip
 #' as.data.frame(lip)
+#' @concept crest lines
+#' @concept standard error of a curve
 #' @export
 ridge_curve <- function(specimen, from, to, type = c("ridge", "valley", "plane"), radius, width, n,
                         settings = ridge_settings(), route = curve_route(), ...) {
@@ -364,7 +369,12 @@ course_fault <- function(job, fit) {
                      length / job$ends$span, job$settings$detour))
     }
   }
-  if (fit$line$at_bound) "it runs along the edge of the window" else NA_character_
+  if (!fit$line$at_bound) return(NA_character_)
+  scan <- job$ends$scan
+  window <- fit$coordinates$vertex[fit$coordinates$inside]
+  holed <- any(window %in% border_vertices(scan$it, scan$twin))
+  paste0("it runs along the edge of the window",
+         if (holed) ", in which there is a hole or border of the mesh")
 }
 
 #' What is wrong with the curvature that a curve follows, NA where nothing
@@ -393,6 +403,8 @@ warn_undetermined <- function(curve) {
     sprintf("the %s from %s to %s is not determined by curvature: %s.", curve$type, curve$from,
             curve$to, curve$reason),
     if (grepl("another unit than the mesh", curve$reason, fixed = TRUE)) wide_radius_remedy else
+      if (grepl("a hole or border", curve$reason, fixed = TRUE))
+        "Fill the hole, or measure the curve by a scheme: fit_shape() bridges holes." else
       "Use the shortest plane cut (type = \"plane\"), or another radius.",
     stage = "ridge curve", id = curve$id, class = "crestline_undetermined"
   )
@@ -433,9 +445,10 @@ print.curve <- function(x, ...) {
       cat(sprintf(", mean strength %.3g, median standard error %.3g", x$strength, x$se))
     }
     remark <- if (x$type != "plane") curve_remark(x) else NA
-    if (!is.na(remark)) cat("\n ", remark)
-    cat(sprintf("\n  %s%s\n", if (x$converged) "converged" else "NOT converged",
-                if (is.na(x$reason)) "" else paste0("; NOT determined by curvature: ", x$reason)))
+    verdict <- paste0(if (x$converged) "converged" else "NOT converged",
+                      if (!is.na(x$reason)) paste0("; NOT determined by curvature: ", x$reason))
+    said <- c(remark[!is.na(remark)], verdict)
+    cat("", strwrap(said, width = 80, indent = 2, exdent = 4), sep = "\n")
     invisible(x)
   })
 }

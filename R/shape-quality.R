@@ -30,7 +30,7 @@
 #'   and `level` are not red. Leave out a curve of all specimens if it is red in most, or measure it
 #'   as a "plane" curve (`kind` of [curve_scheme()]). Use an amber part if the picture is right. If
 #'   trimmed curves are too short on many scans, measure all specimens with one smaller `cut_scale`,
-#'   see [fit_shape()].
+#'   as by `fit_shapes(x, scheme, measuring = shape_settings(cut_scale = 0.8))`.
 #' @param x A `shape`, as [fit_shape()] returns it, or a list of shapes. Names of the list, if any,
 #'   name the specimens. `NULL` in the list stands for a specimen that could not be measured.
 #' @param limits [quality_limits()].
@@ -78,8 +78,10 @@
 #'   * a landmark was found with doubt, or predicted: Look at it, and move it:
 #'     [review_landmarks()].
 #'   * a curve that bounds the patch is not green: Look at that curve; the patch follows it.
-#'   * cut short: The scan or a curve is too short for the trimmed length. Measure all
-#'     specimens with one `cut_scale` of [fit_shape()].
+#'   * cut short: The scan or a curve is too short for the trimmed length. The share
+#'     is the part of the curve's typical length that the scheme keeps. Measure all specimens with
+#'     one `cut_scale`, by `measuring = shape_settings(cut_scale = )` of [fit_shapes()], no greater
+#'     than the least share that is reported.
 #'   * points or landmarks are missing: Place the landmark, or scan again. The other parts are not
 #'     affected.
 #'   * uncertain across the curve: The ridge is broad or the scan is noisy there. Look at the
@@ -112,9 +114,14 @@
 #' graded
 #' graded[graded$grade > "green", c("part", "grade", "why")]
 #' }
+#' @concept how good is a measurement
 #' @export
 quality <- function(x, limits = quality_limits(), others = NULL) {
   check_given()
+  if (inherits(x, "curve")) {
+    refuse_argument("x", x, paste("quality() grades shapes of fit_shape(). A curve has its own",
+                                  "verdict: `determined`, `reason` and `se`; plot(x)."))
+  }
   check_class(limits, "quality_limits", "limits", "quality_limits()")
   if (inherits(x, "shape_sample")) validate(x)
   shapes <- measures_of(x, "x")
@@ -195,7 +202,7 @@ worst_lines <- function(x, several) {
   if (!several) {
     # Parts with one reason share a line
     said <- paste(worst$grade, worst$why)
-    parts <- tapply(worst$part, factor(said, unique(said)), shorten, 6)
+    parts <- tapply(titled_parts(worst), factor(said, unique(said)), shorten, 6)
     once <- worst[!duplicated(said), ]
     return(sprintf("%s: %s: %s", once$grade, parts, once$why))
   }
@@ -396,11 +403,15 @@ print.shape_quality <- function(x, most = 10, ...) {
       cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
       if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
     }
+    if (nrow(counts) > 1 && all(is.na(x$z))) {
+      cat(strwrap(paste("lengths of curves are not compared: too few other specimens (`others` of",
+                        "quality_limits())"), indent = 2, exdent = 4, width = 80), sep = "\n")
+    }
     lines <- worst_lines(x, nrow(counts) > 1)
     for (line in utils::head(lines, most)) {
       cat(strwrap(paste("-", line), width = 80, exdent = 4), sep = "\n")
     }
-    if (length(lines) > most) cat("- and", length(lines) - most, "more that are not green\n")
+    if (length(lines) > most) cat("- and", length(lines) - most, "more that are not green: print(x, most = Inf)\n")
     invisible(x)
   })
 }

@@ -179,7 +179,7 @@ print.shape <- function(x, most = 8, ...) {
       cat(strwrap(paste0("- ", said$part[i], ": ", said$reason[i]), width = 80, exdent = 4),
           sep = "\n")
     }
-    if (nrow(said) > most) cat("- and", nrow(said) - most, "more in status\n")
+    if (nrow(said) > most) cat("- and", nrow(said) - most, "more in shape$status\n")
     unused <- if (!is.null(x$specimen)) unused_names(x$specimen$landmarks, x$scheme)
     cat(absent_lines(x), sep = "")
     if (!is.null(unused)) unused <- strwrap(paste0("- landmarks ", unused), width = 80, exdent = 4)
@@ -243,5 +243,6 @@ noise_text <- function(factor, plain = 2) {
     return(sprintf("noise: independent from vertex to vertex, or known (F = %.2g)", factor))
   }
   sprintf(paste("noise: this scan's noise is correlated, or its relief is fine: F = %.2g;",
-                "standard errors are %.2g times those of independent noise"), factor, sqrt(factor))
+                "standard errors are %.2g times those of independent noise (no fault: F is 3 to 79",
+                "on good faces)"), factor, sqrt(factor))
 }

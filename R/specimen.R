@@ -190,8 +190,12 @@ print.specimen <- function(x, ...) {
     if (length(words))
       cat(strwrap(paste("- landmarks look exchanged:", toString(words)), exdent = 2), sep = "\n")
     found <- x$report[x$report$count > 0, ]
-    for (i in seq_len(nrow(found))) cat("- ", found$count[i], " ", found$check[i], ": ",
-                                        found$action[i], "\n", sep = "")
+    one <- found$count == 1
+    found$check[one] <- sub("vertices", "vertex", sub("(face|hole|piece|landmark|triangle)s\\b",
+                                                      "\\1", found$check[one]))
+    for (line in sprintf("- %d %s: %s", found$count, found$check, found$action)) {
+      cat(strwrap(line, width = 80, exdent = 2), sep = "\n")
+    }
     invisible(x)
   })
 }
