@@ -30,9 +30,9 @@
 #'   [calibrate_template()], with [find_settings()] and [refine_settings()].
 #' * *Curvature*: [curvature()], [shape_index()], [curvedness()], [shape_category()].
 #' * *One curve*: [ridge_curve()] with [ridge_settings()], [curve_route()], [keep_away()],
-#'   [keep_side()] and, for the noise of a scanner, [scan_noise()]; its stages: [reference_path()]
-#'   with [path_settings()], [path_coordinates()], [curvature_surface()], [ridge_line()], [lift()];
-#'   another path: [plane_path()].
+#'   [keep_side()] and, for the noise of a scanner, [scan_noise()] with [noise_settings()]; its
+#'   stages: [reference_path()] with [path_settings()], [path_coordinates()],
+#'   [curvature_surface()], [ridge_line()], [lift()]; another path: [plane_path()].
 #' * *Places on a mesh*: [locate()] (the closest one), [frechet_mean()].
 #' * *A whole specimen*: [fit_shape()] by a scheme ([face_scheme()], [read_scheme()],
 #'   [curve_scheme()], [write_scheme()], [learn_tracks()]) with [shape_settings()]; a scheme of your

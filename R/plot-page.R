@@ -124,7 +124,9 @@ page_of <- function(x, file, title) UseMethod("page_of")
 #' @param more Dots of [write_page()].
 #' @noRd
 page_scene <- function(curves, specimen, surface, size, more, edges = "#505050", raised = 0.004) {
-  more <- utils::modifyList(list(width = 4, view = "front"), more)
+  # Not modifyList(), by which a NULL that is given would pass as not given.
+  usual <- list(width = 4, view = "front")
+  more <- c(more, usual[setdiff(names(usual), names(more))])
   more$engine <- "widget"
   more$size <- size
   more$surface <- surface

@@ -22,6 +22,7 @@ plotted_instead <- c(
   mesh_path = paste("Draw it on its mesh: scene <- draw_surface(mesh);",
                     "draw_lines(scene, path[c(\"x\", \"y\", \"z\")])."),
   model_settings = "Plot a model: plot(shape_lm(sample, formula, data)).",
+  noise_settings = "Plot a curve that was found with the noise: plot(curve).",
   norm_settings = "Plot the sample of the norms: plot(sample).",
   norms_summary = "Plot the object that it summarises.",
   path_coordinates = "Plot the curve that was found in them: plot(curve, \"panel\").",
@@ -70,6 +71,7 @@ plotted_instead <- c(
 #' S3method(plot,landmark_template,refuse_plot)
 #' S3method(plot,mesh_path,refuse_plot)
 #' S3method(plot,model_settings,refuse_plot)
+#' S3method(plot,noise_settings,refuse_plot)
 #' S3method(plot,norm_settings,refuse_plot)
 #' S3method(plot,norms_summary,refuse_plot)
 #' S3method(plot,path_coordinates,refuse_plot)

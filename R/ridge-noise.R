@@ -21,15 +21,13 @@
 #'   `NULL`: the landmarks of `first`, or the whole mesh if it has none.
 #' @param reach Vertices within this distance of `near` are compared, as a share of the largest
 #'   extent of `near`.
-#' @param points Greatest number of vertices that are compared; the closest to `near` are taken.
-#' @param trim Distances beyond this many median absolute deviations are left out, such as those at
-#'   holes and hair.
-#' @param lags Largest distance at which correlation is measured, in mean edge lengths.
-#' @param rounds,tolerance Greatest number of rounds of the registration. It has converged when no
-#'   point moves by more than `tolerance` times the extent.
 #' @param direction Direction of the scanner's errors in the frame of `first`, three numbers, such
 #'   as its line of sight. On a slope such an error moves the surface by less along its normal, and
 #'   is correlated over a longer way. `NULL`: errors are along the normals.
+#' @param settings Which vertices are compared, and when the registration ends, as of
+#'   [noise_settings()].
+#' @param ... Fields of [noise_settings()], the former form. They give a message of class
+#'   `crestline_deprecated`.
 #' @return Object of class `scan_noise`, a list:
 #'   * `independent`, `smooth`: standard deviations of the two parts, in the unit of the mesh;
 #'   * `range`: range of the correlation, in the unit of the mesh (0: no smooth part);
@@ -65,30 +63,28 @@
 #'                      settings = ridge_settings(noise = noise))
 #' curve$se
 #' @export
-scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, trim = 5, lags = 12,
-                       rounds = 50, tolerance = 1e-6, direction = NULL) {
+scan_noise <- function(first, second, near = NULL, reach = 0.5, direction = NULL,
+                       settings = noise_settings(), ...) {
   check_given()
   check_surface(first, "first")
   check_surface(second, "second")
   check_number(reach, "reach", lower = 0, open = TRUE)
-  points <- check_count(points, "points", lower = 100)
-  check_number(trim, "trim", lower = 0, open = TRUE)
-  check_number(lags, "lags", lower = 3)
-  rounds <- check_count(rounds, "rounds")
-  check_number(tolerance, "tolerance", lower = 0, open = TRUE)
   direction <- check_direction(direction)
+  check_class(settings, "noise_settings", "settings", "noise_settings()")
+  settings <- settings_with_former(settings, "noise_settings", ...)
   marks <- list(first$landmarks, second$landmarks)
   near <- if (!is.null(near)) point_matrix(near, "near") else marks[[1]]
   scans <- list(walkable(first), walkable(second))
-  compared <- compared_vertices(scans[[1]], near, reach, points)
+  compared <- compared_vertices(scans[[1]], near, reach, settings$points)
   if (nrow(compared$xyz) < 100) abort_few_compared(nrow(compared$xyz), scans[[1]]$id)
   shared <- intersect(rownames(marks[[1]]), rownames(marks[[2]]))
   both <- if (length(shared) >= 3) lapply(marks, function(x) x[shared, , drop = FALSE])
-  laid <- laid_on(scans[[2]], compared, both, trim, rounds, tolerance)
+  laid <- laid_on(scans[[2]], compared, both, settings)
   if (sum(laid$kept) < 100) abort_few_compared(sum(laid$kept), scans[[1]]$id)
   xyz <- compared$xyz[laid$kept, ]
   flat <- flattened(xyz, direction)
-  lagged <- lagged_covariance(flat, laid$distance[laid$kept], compared$edge, lags)
+  lagged <- lagged_covariance(flat, laid$distance[laid$kept], compared$edge,
+                              settings$lags)
   left <- left_by_registration(xyz, compared$normal[laid$kept, ], lagged, compared$edge, direction)
   fitted <- fitted_noise(lagged, laid$weight, compared$edge, left)
   if (sqrt(lagged$covariance[1]) > compared$edge) {
@@ -104,6 +100,43 @@ scan_noise <- function(first, second, near = NULL, reach = 0.5, points = 4000, t
               converged = laid$converged, rounds = laid$rounds
             )),
             class = "scan_noise")
+}
+
+#' Settings of `scan_noise()`
+#'
+#' @param ... Settings by name; the others keep their defaults.
+#' @param points Greatest number of vertices that are compared; the closest to `near` are taken.
+#' @param trim Distances beyond this many median absolute deviations are left out, such as those at
+#'   holes and hair.
+#' @param lags Largest distance at which correlation is measured, in mean edge lengths.
+#' @param rounds,tolerance Greatest number of rounds of the registration. It has converged when no
+#'   point moves by more than `tolerance` times the extent.
+#' @return List of class `noise_settings`.
+#' @section Errors: of class `crestline_error`: a name is not that of a setting, or a value is out
+#'   of range.
+#' @seealso [scan_noise()]
+#' @template glossary
+#' @examples
+#' noise_settings(lags = 8)
+#' @export
+noise_settings <- function(..., points = 4000, trim = 5, lags = 12, rounds = 50,
+                           tolerance = 1e-6) {
+  new_settings("noise_settings", check_noise_settings, list(...))
+}
+
+check_noise_settings <- function(settings) {
+  settings$points <- check_count(settings$points, "points", lower = 100)
+  check_number(settings$trim, "trim", lower = 0, open = TRUE)
+  check_number(settings$lags, "lags", lower = 3)
+  settings$rounds <- check_count(settings$rounds, "rounds")
+  check_number(settings$tolerance, "tolerance", lower = 0, open = TRUE)
+  settings
+}
+
+#' @export
+print.noise_settings <- function(x, ...) {
+  check_method_dots(...)
+  print_settings(x, "<noise_settings> of scan_noise()")
 }
 
 #' A unit vector, or NULL
@@ -168,7 +201,7 @@ compared_vertices <- function(scan, near, reach, points, fits = 5) {
 #' @return List: `distance` along the normals; `weight`, mean sum of squares of the closest places'
 #'   weights in their triangles; `kept`, `converged`, `rounds`.
 #' @noRd
-laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
+laid_on <- function(scan, compared, both, settings) {
   xyz <- compared$xyz
   normal <- compared$normal
   move <- function(rotation, shift) {
@@ -186,8 +219,8 @@ laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
   repeat {
     at <- surface_points(scan, xyz)
     distance <- rowSums((as.matrix(at[c("x", "y", "z")]) - xyz) * normal)
-    kept <- not_astray(distance, trim, compared$extent)
-    if (converged || round == rounds) break
+    kept <- not_astray(distance, settings$trim, compared$extent)
+    if (converged || round == settings$rounds) break
     round <- round + 1
     middle <- colMeans(xyz)
     about <- sweep(xyz, 2, middle)
@@ -198,11 +231,11 @@ laid_on <- function(scan, compared, both, trim, rounds, tolerance) {
     rotation <- rotation_about(turn)
     before <- xyz
     move(rotation, middle + step[4:6] - as.vector(rotation %*% middle))
-    converged <- max(abs(xyz - before)) <= tolerance * compared$extent
+    converged <- max(abs(xyz - before)) <= settings$tolerance * compared$extent
   }
   at <- along_normals(scan, xyz, normal)
   distance <- rowSums((at - xyz) * normal)
-  kept <- not_astray(distance, trim, compared$extent)
+  kept <- not_astray(distance, settings$trim, compared$extent)
   met <- surface_points(scan, at[kept, , drop = FALSE])
   list(distance = distance, weight = mean(met$w1^2 + met$w2^2 + met$w3^2), kept = kept,
        converged = converged, rounds = round)
