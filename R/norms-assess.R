@@ -145,7 +145,7 @@ check_norm_scheme <- function(shape, norms) {
 check_norm_sex <- function(sex, norms) {
   known <- norms$ages$sex
   if (is.null(sex) && identical(known, "all")) return("all")
-  check_choice(as.character(sex), known, "sex")
+  check_choice(if (is.factor(sex)) as.character(sex) else sex, known, "sex")
 }
 
 #' Effective number of faces at an age, which must be within the norm's

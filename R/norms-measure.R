@@ -13,8 +13,8 @@
 #' of kind "plane" has no error of its own; its points follow those of its two ends. Points inside
 #' of a patch do not move, as moves along the surface do not change an area.
 #'
-#' @param x A `shape`, as of [fit_shape()] or [slide()], a batch of [fit_shapes()] (without those that
-#'   failed), or a `shape_sample`, as of [homologise()].
+#' @param x A `shape`, as of [fit_shape()] or [slide()], a batch of [fit_shapes()] (without those
+#'   that failed), or a `shape_sample`, as of [homologise()].
 #' @param table Data frame of measurements, as [face_measurements()] gives it.
 #' @param error Standard error of each co-ordinate of a landmark, in the unit of the mesh: one
 #'   number, or one for each landmark by name. It is used for landmarks without `se` in the table of

@@ -60,8 +60,8 @@ cut_path <- function(ends, angle, side, reach, ...) {
 #' A mesh as walks need it, from a specimen (kept) or a mesh (worked out)
 #'
 #' @return List: `passed` (as of [passed_mesh()]), its `vb` and `it` (as kernels take them),
-#'   `normals` (NULL where the mesh has none), `twin`, `piece` of [mesh_topology()], `key`, `diagonal`, `id`, and `search`, the constants of
-#'   searches for paths. It serves as a mesh too.
+#'   `normals` (NULL where the mesh has none), `twin`, `piece` of [mesh_topology()], `key`,
+#'   `diagonal`, `id`, and `search`, the constants of searches for paths. It serves as a mesh too.
 #' @noRd
 walkable <- function(specimen) {
   whole <- as_mesh(specimen)

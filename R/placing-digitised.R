@@ -130,8 +130,9 @@ recorded_specimens <- function(records, sources, scheme, dir) {
   own <- which(id %in% names(sources))
   lost <- setdiff(names(sources), id)
   if (length(lost)) {
-    crestline_inform(sprintf("%s no record in %s: %s.", if (length(lost) == 1) "One specimen has" else
-      sprintf("%d specimens have", length(lost)), dir, shorten(lost)))
+    crestline_inform(sprintf("%s no record in %s: %s.",
+                             amount(length(lost), "specimen has", "specimens have"), dir,
+                             shorten(lost)))
   }
   each <- lapply(own, function(i) {
     desk <- desk_from(sources[id[i]], scheme, dir, who[i], TRUE, ridge_settings(error = FALSE),

@@ -324,8 +324,9 @@ chosen_curve <- function(review) {
     side_line(review, review$pen, "curves"), record_line(review, review$pen, "curves"),
     tags$p(if (is.null(line)) "Click along it: the line follows the surface." else
       line_words(review$pen, line)),
-    if (!is.na(doubt <- curve_doubt(review, review$pen))) tags$p(class = "warning",
-                                                                  paste0("Look at it: ", doubt, "."))
+    if (!is.na(doubt <- curve_doubt(review, review$pen))) {
+      tags$p(class = "warning", paste0("Look at it: ", doubt, "."))
+    }
   )
 }
 

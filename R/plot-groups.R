@@ -17,8 +17,8 @@
 #' @param engine,view As in [plot.specimen()] and [draw_surface()].
 #' @param ... Further arguments of each kind, see below.
 #' @param legend Whether to draw a legend (not by "rgl").
-#' @param main Title; `NULL` for the p-value. That of a single component is adjusted for their number,
-#'   as by `print()`.
+#' @param main Title; `NULL` for the p-value. That of a single component is adjusted for their
+#'   number, as by `print()`.
 #' @section Further arguments: Of "boxes":
 #'   * `components`: numbers of the components (1, 2 and 3 by default);
 #'   * those of [graphics::boxplot()].

@@ -93,7 +93,7 @@ rgl_overlay <- function(meshes, colour, opacity, view, ...) {
   add_ids(scene, ids)
 }
 
-#' The p-value of a test as print() gives it: that of a single component is adjusted for their number
+#' The p-value of a test as print() gives it: that of a single component is adjusted
 #' @noRd
 p_value_of <- function(x, level, test) {
   single <- grepl("^PC[0-9]+$", test)

@@ -42,8 +42,8 @@ plot.visit_comparison <- function(x, what = c("change", "score"), limits = NULL,
   points <- x$points[x$points$level == "surface", ]
   if (all(is.na(points[[what]]))) {
     crestline_abort(sprintf("no point of the surface has a %s.", what),
-                    if (what == "score") "Give compare_visits() an `error`, or plot the change." else
-                      "Compare visits whose scheme has a surface.",
+                    if (what != "score") "Compare visits whose scheme has a surface." else
+                      "Give compare_visits() an `error`, or plot the change.",
                     stage = "picture", id = x$ids[2], call = NULL)
   }
   # The outline is where p_adjusted crosses 0.5: 0.25 beyond the limit, 1 elsewhere

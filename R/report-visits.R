@@ -45,7 +45,8 @@ visit_maps <- function(x) {
     class = "maps", card("First visit", " at the points that were measured."),
     card("Change along the surface's normal", sprintf(" in %s.", x$unit), points$change, span,
          ring = points$called),
-    card("Change over its standard error", " with a sign where it is real.", points$score, 6, x$limit)
+    card("Change over its standard error", " with a sign where it is real.", points$score, 6,
+         x$limit)
   ), sign_legend(span, x$unit), tags$p(
     class = "note", "The scale is that of the second picture; in the third, full colours are 6",
     sprintf("standard errors. Outlined: beyond the limit %.2f,", x$limit),

@@ -83,10 +83,10 @@
 #'   24, 49 and 79, and the band is too wide. Two scans of one subject separate noise from relief.
 #'   With [ridge_settings()]`(noise = )` of [scan_noise()] the standard error follows the measured
 #'   noise. On the same surfaces, with the `direction` of the noise, the crest is within the band at
-#'   91, 90 and 91 % of the places for b = 1, and at 96, 95 and 91 % for b = 2 (curves of three bends;
-#'   with the true noise 90 to 98 %). A small scan holds few patches of smooth noise. The standard
-#'   error is then wider by Student's distribution: two of them hold what two hold of the normal
-#'   distribution. A wider radius adds a bias that the standard error does not include.
+#'   91, 90 and 91 % of the places for b = 1, and at 96, 95 and 91 % for b = 2 (curves of three
+#'   bends; with the true noise 90 to 98 %). A small scan holds few patches of smooth noise. The
+#'   standard error is then wider by Student's distribution: two of them hold what two hold of the
+#'   normal distribution. A wider radius adds a bias that the standard error does not include.
 #'   `vignette("how-good", "crestline")` has the tables.
 #' @section Curves that bow, curves that close: With `path = "crest"` or a `via` the reference path
 #'   is a path of least cost, see [reference_path()]. Where `from` is `to` and there is a `via` on
@@ -99,8 +99,8 @@
 #'   where noise is high.
 #' @section Errors: of class `crestline_error`: a landmark is missing, no path joins the landmarks,
 #'   or an argument is wrong. The error names the specimen, the stage and the remedy. Unlike
-#'   [fit_shape()], `ridge_curve()` does not bridge holes. A hole that no plane cut passes is such an
-#'   error. If a cut passes beside it, the curve may run round it; `determined` is FALSE if it so
+#'   [fit_shape()], `ridge_curve()` does not bridge holes. A hole that no plane cut passes is such
+#'   an error. If a cut passes beside it, the curve may run round it; `determined` is FALSE if it so
 #'   reaches the edge of the window.
 #' @section Curvature along a curve: `predict(curve$surface, s, d)` at the points' `s` and `d` gives
 #'   the smoothed strength, whose mean is `strength`. [curvature()] gives the principal curvatures

@@ -61,8 +61,8 @@
 #' @param beside Greatest distance of a landmark from the ridge or valley that ends on it, in radii.
 #'   Beyond it the landmark counts as beside its crest, see `beside` of [ridge_curve()].
 #' @param widest Greatest radius, as a multiple of the distance of the two ends (on a curve with
-#'   `via`, of its reference path's length). With a wider one the curve counts as not determined: the
-#'   radius is most likely in another unit than the mesh. Of the ridges of [face_scheme()] the
+#'   `via`, of its reference path's length). With a wider one the curve counts as not determined:
+#'   the radius is most likely in another unit than the mesh. Of the ridges of [face_scheme()] the
 #'   widest has 0.33.
 #' @param detour Greatest length of a curve, as a multiple of the distance of its ends, beyond which
 #'   it counts as not determined. Curves of least cost may be longer. The ridges of [face_scheme()]

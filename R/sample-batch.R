@@ -72,8 +72,8 @@
 #'   ids of the specimens:
 #'   * a landmark file for each specimen;
 #'   * one file for all (.tps, .nts, .csv with a column of specimens);
-#'   * a folder of landmark files. If it is an observer's folder of [digitise()], curves are measured
-#'     as they were drawn;
+#'   * a folder of landmark files. If it is an observer's folder of [digitise()], curves are
+#'     measured as they were drawn;
 #'   * a named list of k x 3 matrices;
 #'   * a k x 3 x n array with names.
 #' @param template A [landmark_template()] for meshes without landmarks. `NULL`: [face_template()]

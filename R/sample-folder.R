@@ -9,7 +9,8 @@
 #' "waiting".
 #'
 #' A result stays when its scan is taken away from the folder of scans. A cohort (`part`) remembers
-#' its specimens: a message names results of others. Leave them out, `x[ids]`, or delete their files.
+#' its specimens: a message names results of others. Leave them out, `x[ids]`, or delete their
+#' files.
 #'
 #' @param x Path of the folder (`dir` of [fit_shapes()]), or paths of `.shape` files.
 #' @return A `shape_batch`, as of [fit_shapes()], in the order of the files' names.

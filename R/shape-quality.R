@@ -190,6 +190,11 @@ rows_together <- function(tables, names) {
   as.data.frame(columns, optional = TRUE)
 }
 
+#' Names of parts, patches as such: a curve may have the same name
+#' @noRd
+titled_parts <- function(parts) ifelse(parts$level == "surface", paste("patch", parts$part),
+                                       parts$part)
+
 #' Lines of what is not green: each part of one specimen; of several each specimen as a whole, and
 #' each kind of reason with its count
 #' @noRd
@@ -411,7 +416,9 @@ print.shape_quality <- function(x, most = 10, ...) {
     for (line in utils::head(lines, most)) {
       cat(strwrap(paste("-", line), width = 80, exdent = 4), sep = "\n")
     }
-    if (length(lines) > most) cat("- and", length(lines) - most, "more that are not green: print(x, most = Inf)\n")
+    if (length(lines) > most) {
+      cat("- and", length(lines) - most, "more that are not green: print(x, most = Inf)\n")
+    }
     invisible(x)
   })
 }

@@ -31,8 +31,3 @@ warn_red <- function(parts, stage, remedy, most = 6) {
     remedy, stage = stage, class = "crestline_red_parts"
   )
 }
-
-#' Names of parts, patches as such: a curve may have the same name
-#' @noRd
-titled_parts <- function(parts) ifelse(parts$level == "surface", paste("patch", parts$part),
-                                       parts$part)

@@ -27,9 +27,9 @@
 #'   without `.gz`).
 #' @param names Names of landmarks to change, as a named character vector: `c(prn = "pn")` renames
 #'   the landmark `prn` of the file to `pn`. A file without names, such as most TPS files, gives the
-#'   landmarks the numbers "1", "2", ... as names: there `names` may also be a plain character vector
-#'   of the names of all landmarks, in the order of the file. A warning lists the names that the specimen does not
-#'   have; if it has none of them, that is an error.
+#'   landmarks the numbers "1", "2", ... as names: there `names` may also be a plain character
+#'   vector of the names of all landmarks, in the order of the file. A warning lists the names that
+#'   the specimen does not have; if it has none of them, that is an error.
 #' @param ... Further arguments of [specimen()].
 #' @return A [specimen()]. Errors are of class `crestline_error`; they name the specimen and the
 #'   remedy.

@@ -19,9 +19,9 @@
 #'   away from the centroid; the limit is -0.4 (face scans have 0.55 to 0.85). "keep" leaves all
 #'   pieces as they are; use it for a small or hollow surface. "flip" turns all pieces.
 #' @param tolerance Greatest distance of a landmark from the surface, as a share of the object's
-#'   size (0.01 is 3 to 4 mm on a face), at most 0.25. Closer landmarks are moved onto the surface. Farther
-#'   landmarks are an error. The size is that of the part where most of the surface lies, on the
-#'   pieces that carry the landmarks. On a face it is about the diagonal of the bounding box. A
+#'   size (0.01 is 3 to 4 mm on a face), at most 0.25. Closer landmarks are moved onto the surface.
+#'   Farther landmarks are an error. The size is that of the part where most of the surface lies, on
+#'   the pieces that carry the landmarks. On a face it is about the diagonal of the bounding box. A
 #'   platform or a stray vertex does not change it.
 #' @param debris Pieces with less than this share of the mesh's faces are removed (no unit).
 #' @param midline Names of midline landmarks from top to bottom. Together with the landmarks whose

@@ -98,7 +98,7 @@ cat(sprintf("functions and values %d in %d files, %d lines of R\n", length(defin
             length(unique(vapply(defined, `[[`, "", "file"))),
             sum(vapply(list.files("R", full.names = TRUE), function(f) length(readLines(f)), 0L))))
 cat(sprintf("longest function: %s, %d lines\n", names(which.max(lines)), max(lines)))
-cat(sprintf("internal functions with a single caller: %.0f %% of %d; those that could be folded: %.0f %%\n",
+cat(sprintf("internal functions with a single caller: %.0f %% of %d; could be folded: %.0f %%\n",
             100 * mean(callers[internal] == 1), length(internal),
             100 * sum(foldable) / length(internal)))
 cat(sprintf("depth below fit_shape(): %d; with constants %d\n",

@@ -97,7 +97,7 @@ test_that("fit_shapes() finds the tables of a desk by the names of the scans", {
   expect_match(status_of(shapes[[1]], "bottom")$reason, "drawn by hand (A B", fixed = TRUE)
   expect_equal(shapes[[1]]$points$x, direct$points$x, tolerance = 1e-12)
   expect_false(any(grepl("by hand", status_of(shapes[[2]], "bottom")$reason)))
-  # One specimen alone, from the folder or its own table; a copy without its record says what it lacks
+  # One specimen alone, from the folder or its own table; a copy without its record says so
   table <- file.path(folder, "a b.csv")
   for (landmarks in c(folder, table)) {
     expect_equal(read_specimen(files[1], landmarks)$drawn, own$drawn, tolerance = 1e-12)
