@@ -208,8 +208,8 @@ test_that("every exported function that takes a mesh or a part of it is in the t
   called <- sub(",.*", "", called)
   # specimen() is the door itself; keep_*() and the readers take no mesh; in repeatability() and
   # visit_errors() specimens are names, in write_parquet() a table, in curve_route() the path is a
-  # word.
+  # word; read_digitised() compares with its records, see test-placing-desk-state.R.
   elsewhere <- c("specimen", "repeatability", "visit_errors", "write_parquet", "curvature_surface",
-                 "curve_route")
+                 "curve_route", "read_digitised")
   expect_setequal(setdiff(Filter(takes, exports), c(called, elsewhere)), character())
 })

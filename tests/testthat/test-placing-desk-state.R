@@ -275,6 +275,7 @@ test_that("finished specimens come back without being shown, from the desk and f
   expect_warning(left <- with_recorded_reviews(two_balls(dir), dir), "two.*left out.*another mesh",
                  class = "crestline_desk_warning")
   expect_named(digitised_from(left)$specimens, "one")
+  expect_crestline_error(read_digitised(dir, "AB", meshes["two"], quad_scheme()), "mesh")
 })
 
 test_that("specimens of a desk have names of their own", {
