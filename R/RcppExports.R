@@ -5,6 +5,10 @@ cpp_mesh_graph <- function(vb, it) {
     .Call(`_crestline_cpp_mesh_graph`, vb, it)
 }
 
+cpp_points_somewhere <- function(pointer) {
+    .Call(`_crestline_cpp_points_somewhere`, pointer)
+}
+
 cpp_curvature <- function(graph, targets, settings, threads) {
     .Call(`_crestline_cpp_curvature`, graph, targets, settings, threads)
 }

@@ -79,7 +79,7 @@ refuse_no_vertices <- function(id) {
 #' @return External pointer.
 #' @noRd
 mesh_graph <- function(known) {
-  if (is.null(known$graph)) known$graph <- cpp_mesh_graph(known$vb, known$it)
+  if (!cpp_points_somewhere(known$graph)) known$graph <- cpp_mesh_graph(known$vb, known$it)
   known$graph
 }
 

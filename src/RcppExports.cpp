@@ -22,6 +22,17 @@ BEGIN_RCPP
     return rcpp_result_gen;
 END_RCPP
 }
+// cpp_points_somewhere
+bool cpp_points_somewhere(SEXP pointer);
+RcppExport SEXP _crestline_cpp_points_somewhere(SEXP pointerSEXP) {
+BEGIN_RCPP
+    Rcpp::RObject rcpp_result_gen;
+    Rcpp::RNGScope rcpp_rngScope_gen;
+    Rcpp::traits::input_parameter< SEXP >::type pointer(pointerSEXP);
+    rcpp_result_gen = Rcpp::wrap(cpp_points_somewhere(pointer));
+    return rcpp_result_gen;
+END_RCPP
+}
 // cpp_curvature
 List cpp_curvature(SEXP graph, IntegerVector targets, List settings, int threads);
 RcppExport SEXP _crestline_cpp_curvature(SEXP graphSEXP, SEXP targetsSEXP, SEXP settingsSEXP, SEXP threadsSEXP) {
@@ -847,6 +858,7 @@ END_RCPP
 
 static const R_CallMethodDef CallEntries[] = {
     {"_crestline_cpp_mesh_graph", (DL_FUNC) &_crestline_cpp_mesh_graph, 2},
+    {"_crestline_cpp_points_somewhere", (DL_FUNC) &_crestline_cpp_points_somewhere, 1},
     {"_crestline_cpp_curvature", (DL_FUNC) &_crestline_cpp_curvature, 4},
     {"_crestline_cpp_curvature_covariance", (DL_FUNC) &_crestline_cpp_curvature_covariance, 10},
     {"_crestline_cpp_spline_design", (DL_FUNC) &_crestline_cpp_spline_design, 4},

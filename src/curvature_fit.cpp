@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-// On x86 Linux the sums are compiled several times and the processor picks (not under a sanitizer,
-// whose start-up cannot be called by the resolver).
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+// On x86 Linux the sums are compiled several times and the processor picks: with glibc (musl has no
+// resolvers), and not under a sanitizer, whose start-up cannot be called by the resolver.
+#if defined(__x86_64__) && defined(__linux__) && defined(__GLIBC__) && defined(__GNUC__) && \
+    !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define CRESTLINE_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
 #else
 #define CRESTLINE_CLONES

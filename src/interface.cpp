@@ -204,6 +204,12 @@ SEXP cpp_mesh_graph(NumericMatrix vb, IntegerMatrix it) {
                       List::create(vb, it));
 }
 
+// Not NULL, nor a pointer that came from a file or another process.
+// [[Rcpp::export]]
+bool cpp_points_somewhere(SEXP pointer) {
+  return TYPEOF(pointer) == EXTPTRSXP && R_ExternalPtrAddr(pointer) != nullptr;
+}
+
 // graph: as of cpp_mesh_graph().
 // [[Rcpp::export]]
 List cpp_curvature(SEXP graph, IntegerVector targets, List settings, int threads) {

@@ -71,6 +71,17 @@ test_that("neighbours are right only where they lead back along the same edge", 
   expect_gt(cpp_twin_faults(mesh$it[c(2, 3, 1), ], twin), 0)
 })
 
+test_that("the graph of a mesh is made once, and again where its pointer comes from a file", {
+  mesh <- Rvcg::vcgSphere(2)
+  known <- passed_mesh(mesh, NULL)
+  graph <- mesh_graph(known)
+  expect_identical(mesh_graph(known), graph)
+  curved <- function(known) {
+    cpp_curvature(mesh_graph(known), 1:9, kernel_settings(0.8, "quadratic"), 1L)
+  }
+  expect_identical(curved(unserialize(serialize(known, NULL))), curved(known))
+})
+
 key <- function(mesh) crestline:::mesh_key(mesh)
 ball <- Rvcg::vcgSphere(2)
 
