@@ -90,9 +90,10 @@ print.norm_settings <- function(x, ...) {
 #' than a fiftieth of the faces; a person who decides more than a fifth of the mean at his or her
 #' age; a norm whose components fit its members better than strangers (ratio of residuals below
 #' 0.95, or area under the curve of membership above 0.60, both by held-out faces). The error names
-#' the faces to leave out, or the number of components that keeps the rule. Ages at which one person
-#' decides more than a tenth of the mean are cut from the norm's range, and this is
-#' reported. Counts below 5 are merged.
+#' the faces to leave out, or the number of components that keeps the rule. Ages at the ends at
+#' which one person decides more than a tenth of the mean are cut from the norm's range, and this is
+#' reported. In a gap between ages that cannot be done: there the norm is refused. Counts below 5
+#' are merged.
 #'
 #' This is no formal (differential) privacy. Two norms whose samples differ by one person give that
 #' person's face by subtraction: publish rarely, and never "all but one".

@@ -199,7 +199,10 @@ check_lone <- function(parts, people, ids, lone = 5) {
   )
 }
 
-#' A norm whose ages are cut where few faces are effective
+#' A norm whose ages are cut at the ends where few faces are effective
+#'
+#' `least` of its privacy is that of all ages that are left: also of a gap between them, and of a
+#' sex of which no age would be left.
 #' @noRd
 keep_shared_ages <- function(norms, people, least = 10) {
   effective <- effective_faces(norms, people$age, people$group)
@@ -215,7 +218,9 @@ keep_shared_ages <- function(norms, people, least = 10) {
     crestline_inform(sprintf(said, norms$ages$sex[i], norms$ages$from[i], norms$ages$to[i],
                              before$from[i], before$to[i], least))
   }
-  norms$privacy$least <- if (any(kept)) signif(min(effective[kept]), 4) else 0
+  row <- match(people$group, norms$ages$sex)
+  left <- people$age >= norms$ages$from[row] & people$age <= norms$ages$to[row]
+  norms$privacy$least <- if (any(left)) signif(min(effective[left]), 4) else 0
   norms
 }
 
@@ -232,7 +237,9 @@ check_shared <- function(norms, fewer = NULL, least = 10, ratio = 0.95, auc = 0.
   own <- norms$privacy
   if (own$least < least) {
     refuse(sprintf("at some age that is kept the mean is decided by %.2g faces (least %g).",
-                   own$least, least), "Fit it by fit_norms(share = TRUE), which cuts the ages.")
+                   own$least, least),
+           paste("fit_norms(share = TRUE) cuts ages at the ends. For a gap between ages, or a sex",
+                 "with few faces, give more faces."))
   }
   if (own$ratio < ratio || own$auc > auc) {
     said <- "members can be told from strangers: ratio %.3f (least %g), area %.3f (most %g)."

@@ -117,6 +117,14 @@ test_that("ages of a shared norm are cut where few faces are effective", {
   expect_equal(unlist(cut$ages[own, c("from", "to")]), kept, ignore_attr = TRUE)
   expect_equal(cut$ages[!own, ], norms$ages[!own, ])
   expect_equal(cut$privacy$least, sort(effective)[3], tolerance = 1e-3)
+  # A sex of which no age would be left is not cut, and counts.
+  people <- list(age = c(10, 9, 10, 11), group = factor(c("female", "male", "male", "male")))
+  effective <- effective_faces(norms, people$age, people$group)
+  least <- effective[1] + 1
+  expect_gt(min(effective[-1]), least)
+  both <- suppressMessages(keep_shared_ages(norms, people, least))
+  expect_equal(both$ages[own, ], norms$ages[own, ])
+  expect_equal(both$privacy$least, effective[1], tolerance = 1e-3)
 })
 
 test_that("what cannot be a norm is refused by name", {
