@@ -261,6 +261,8 @@ change_covariance <- function(known, weight) {
 #' @noRd
 taken_up <- function(xyz, normal, errors, w) {
   x <- sweep(xyz, 2, colSums(xyz * w) / sum(w))
+  # Turns by shifts of the size of the object: the unit of the mesh does not matter
+  x <- x / sqrt(sum(w * x^2) / sum(w))
   one <- rep(1, nrow(x))
   zero <- 0 * one
   # How each co-ordinate moves with three shifts and three turns

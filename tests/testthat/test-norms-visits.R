@@ -100,6 +100,10 @@ test_that("errors of change are those of drawn errors after the registration", {
   }, numeric(nrow(xyz))))
   expect_equal(sqrt(diag(found)), apply(change, 1, stats::sd), tolerance = 0.03)
   expect_equal(sqrt(mean(found[at, at])), stats::sd(colMeans(change[at, ])), tolerance = 0.05)
+  # In any unit of the mesh
+  own_weight <- ifelse(surface, weight, 0)[own]
+  taken <- function(unit) taken_up(unit * xyz, normal, together_at(xyz, settings), own_weight)
+  for (unit in c(1e-9, 1e9)) expect_equal(taken(unit), taken(1))
 })
 
 test_that("without points in common there is no covariance", {
