@@ -29,6 +29,12 @@ units_in_files <- function(aligned, design, block = 500) {
   with_files(aligned, names(aligned), files$block, read, stats::setNames(own, names(aligned)))
 }
 
+#' Deletes the folder of units in files that are not the alignment itself
+#' @noRd
+forget_units <- function(units, aligned) {
+  unlink(setdiff(attr(units, "files")$dir, attr(aligned, "files")$dir), recursive = TRUE)
+}
+
 flat_block <- function(files, i) {
   matrix(read_block(files, i), nrow(files$points) * length(files$axes))
 }

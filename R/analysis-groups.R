@@ -255,9 +255,7 @@ compare_levels <- function(aligned, design, labels, components, tests, equal_spr
   each <- lapply(aligned, function(one) {
     tick()
     units <- in_design(one, design)
-    # Units in files have a folder of their own.
-    made <- setdiff(attr(units, "files")$dir, attr(one, "files")$dir)
-    if (length(made)) on.exit(unlink(made, recursive = TRUE))
+    on.exit(forget_units(units, one))
     compare_level(units, labels, components, tests, spread, blocks, counts, tick)
   })
   signs_of_first(each, nlevels(design$group) == 2)

@@ -96,6 +96,7 @@ level_to_plot <- function(x, level, what) {
 
 plot_boxes <- function(x, level, colour, main, ..., components = 1:3) {
   compared <- in_design(x$aligned[[level]], x$design)
+  on.exit(forget_units(compared, x$aligned[[level]]))
   pca <- x$pca[[level]]
   if (is.null(pca)) pca <- shape_pca(compared)
   components <- intersect(components, seq_along(pca$sdev))
@@ -106,7 +107,7 @@ plot_boxes <- function(x, level, colour, main, ..., components = 1:3) {
   tests <- c(intersect(c("size t", "size F"), x$tests$test)[1], paste0("PC", components))
   old <- graphics::par(mfrow = grDevices::n2mfrow(length(panels))[2:1], mar = c(2.5, 3, 2.8, 0.6),
                        mgp = c(2, 0.6, 0))
-  on.exit(graphics::par(old))
+  on.exit(graphics::par(old), add = TRUE)
   invisible(Map(function(y, name, test) {
     title <- paste(c(if (is.null(main)) name else paste(main, name, sep = ": "),
                      p_value_of(x, level, test)),

@@ -47,6 +47,8 @@ test_that("pairs, repeats and sites in files are those of the array", {
       }
       expect_alike(compare(files), compare(aligned), c("tests", "points", "components"))
     }
+    draw_quietly(plot(suppressWarnings(compare_groups(files, stored$group, n_perm = 40,
+                                                      block = rep(1:12, 2), seed = 1)), "boxes"))
     expect_identical(list.files(tempdir(), "^units-"), folders)
   }
 })
