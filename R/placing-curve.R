@@ -194,6 +194,8 @@ snap_doubt <- function(curve, drawn, radius, far = 0.5, sharp = 60) {
     one <- step[seq_len(nrow(step) - 2), , drop = FALSE]
     two <- step[-(1:2), , drop = FALSE]
     cosine <- row_products(one, two) / (row_lengths(one) * row_lengths(two))
+    # A step that ends where it began: the line turns back there
+    cosine[is.nan(cosine)] <- -1
     max(180 / pi * acos(pmin(1, pmax(-1, cosine))))
   }
   before <- places(drawn)

@@ -131,6 +131,10 @@ test_that("a snapped line that went far, got a kink, or has no clear ridge is do
   # A hook at the corner: down and back
   hook <- snap_doubt(curve(c(rep(0, 20), -2.4, rep(0, 20))), drawn, 1)
   expect_match(hook, "kink of 1[0-9][0-9] degrees")
+  # A line that turns back upon itself
+  back <- list(path = path_of(rep(0, 41)), determined = TRUE, reason = NA)
+  back$path$x <- c(seq(0, 10, 0.5), seq(9.5, 0, -0.5))
+  expect_match(snap_doubt(back, drawn, 1), "kink of 180 degrees")
   # A kink that was drawn is not one of the snap
   expect_no_match(snap_doubt(curve(c(rep(0, 20), -2.4, rep(0, 20))),
                              path_of(c(rep(0, 20), -2.4, rep(0, 20))), 1), "kink")
