@@ -101,7 +101,9 @@ disc_squares <- function(field, inverse, inner, solved, disc) {
 #' @param distance Of these points from the centre of the disc.
 #' @noRd
 wider_by <- function(field, scan, distance) {
-  table <- field$healing[field$healing$radius == scan$radius, ]
+  # Radii that were read from different files differ by rounding.
+  off <- abs(field$healing$radius - scan$radius)
+  table <- field$healing[off <= min(off), ]
   apart <- row_lengths(sweep(field$points[table$at, , drop = FALSE], 2, field$points[scan$at, ]))
   one <- table[which.min(apart), ]
   pmax(1, one$base + one$peak * bump(distance, max(distance)))

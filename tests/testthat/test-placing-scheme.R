@@ -49,7 +49,7 @@ test_that("patches are rows too, and every reason has a remedy", {
   checked <- check_scheme(quad_scheme(), quad_specimen())
   scene <- plot(checked, engine = "widget")
   expect_setequal(drawn_layers(scene$drawn), c("surface", "landmarks", unique(checked$part)))
-  expect_true(all(names(scene$drawn$key) %in% checked$grade))
+  expect_setequal(names(scene$drawn$key), as.character(checked$grade))
   expect_setequal(checked$level, c("curves", "surface"))
   expect_identical(is.na(checked$remedy), is.na(checked$reason))
   expect_match(remedy_of("it runs along the edge of the window"), "larger width")

@@ -22,7 +22,7 @@ test_that("the noise of two simulated scans comes back: its size, and how far it
   expect_equal(alone[["independent"]], 0.01, tolerance = 0.2)
   expect_lt(alone[["smooth"]], 0.0045)
   for (steps in 1:3) {
-    spacing <- if (steps == 3) 0.025 else 0.05 # a square of enough ranges
+    spacing <- if (steps == 3) 0.033 else 0.05 # a square of enough ranges
     found <- measured(steps, spacing)
     expect_equal(found[["sd"]], 0.01, tolerance = 0.2)
     # White noise under a Gaussian kernel of so many steps has correlation exp(-d^2 / (4 steps^2)).
