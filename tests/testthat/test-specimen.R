@@ -43,7 +43,7 @@ test_that("print fits a screen and tells what was mended", {
   expect_lte(length(text), 12)
   expect_lte(max(nchar(text)), 80)
   expect_match(text[1], "ball: 162 vertices, 320 triangles")
-  expect_match(text, "1 unreferenced vertices: left out", all = FALSE)
+  expect_match(text, "1 unreferenced vertex: left out", all = FALSE)
 })
 
 test_that("a landmark is found by its name, with its face and weights", {
