@@ -258,12 +258,15 @@ check_shared <- function(norms, fewer = NULL, least = 10, ratio = 0.95, auc = 0.
 validate_shape_norms <- function(x) {
   parts <- c("points", "n", "ages", "counts", "table", "values", "surface", "limits", "settings",
              "scheme")
+  # Norms of former versions have no healing and no correlations.
   ok <- is.list(x) && all(parts %in% names(x)) && is.data.frame(x$points) &&
+    is.data.frame(x$surface$healing) && all(c("r_xy", "r_xz", "r_yz") %in% names(x$points)) &&
     is.data.frame(x$table) && is.environment(x$cache) &&
     length(x$surface$sd) == 3 * nrow(x$points) &&
     nrow(x$table) == length(x$values$groups[[1]]$lambda)
   if (!isTRUE(ok)) {
-    crestline_abort("the norm is damaged.", "Make it with fit_norms() or read_norms().",
+    crestline_abort("the norm is damaged, or of a former version.",
+                    "Make it with fit_norms() or read_norms().",
                     stage = "norms", call = NULL)
   }
   invisible(x)

@@ -462,6 +462,11 @@ noise_setting <- function(noise) {
   direction <- attr(noise, "direction")
   if (inherits(noise, "scan_noise")) {
     spread <- noise$spread
+    # Without it the noise would count as known exactly.
+    if (is.null(spread)) {
+      crestline_abort("`noise` has no `spread`: scan_noise() of a former version made it.",
+                      "Measure it again with scan_noise().", stage = "arguments")
+    }
     direction <- noise$direction
     noise <- unlist(noise[c("independent", "smooth", "range")])
   }

@@ -118,6 +118,9 @@ test_that("ages beyond the norm, other schemes and unknown sexes are refused", {
   damaged <- norms
   damaged$points <- damaged$points[-1, ]
   expect_crestline_error(assess(shape, damaged, 10, "female"), "damaged")
+  former <- norms
+  former$surface$healing <- NULL
+  expect_crestline_error(assess(shape, former, 10, "female"), "former version")
 })
 
 test_that("a mirror image is refused by name", {

@@ -97,6 +97,9 @@ test_that("known noise takes the noise factor's place, and widens the kernel if 
   # The same noise, but exactly known: the band is narrower.
   exact <- fit(ridge_settings(noise = structure(known$settings$noise, spread = NULL)))
   wider <- known$se / exact$se
+  former <- noise
+  former$spread <- NULL
+  expect_crestline_error(ridge_settings(noise = former), c("`spread`", "former version"))
   expect_gt(wider, 1.01)
   expect_lt(wider, 1.2)
 })
