@@ -145,7 +145,7 @@ check_direction <- function(direction) {
   if (is.null(direction)) return(NULL)
   given <- is.numeric(direction) && length(direction) == 3 && all(is.finite(direction)) &&
     any(direction != 0)
-  if (given) return(unit_vector(as.numeric(direction)))
+  if (given) return(unit_vector(as.numeric(direction) / max(abs(direction))))
   crestline_abort(sprintf("`direction` is %s.", describe_value(direction)),
                   "Give the direction of the scanner's errors, three finite numbers, not all 0.",
                   stage = "arguments")

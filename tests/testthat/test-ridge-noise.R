@@ -146,6 +146,7 @@ test_that("errors along a direction are smaller along the normals of slopes, and
   along <- scan_noise(scans[[1]], scans[[2]], direction = c(0, 0, 2))
   across <- scan_noise(scans[[1]], scans[[2]])
   expect_identical(along$direction, c(0, 0, 1))
+  for (size in c(1e-200, 1e200)) expect_equal(check_direction(c(3, 0, 4) * size), c(0.6, 0, 0.8))
   expect_equal(across$sd / along$sd, sqrt(1 / 2), tolerance = 0.1)
   expect_gt(across$range, along$range)
   # And so the same errors are propagated less on slopes.
