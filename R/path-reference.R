@@ -111,7 +111,8 @@ reference_path <- function(specimen, from, to, type = c("ridge", "valley", "plan
 radius_doubt <- function(radius, ends, path, widest) {
   bowed <- is.null(ends$span) || !is.null(ends$via)
   span <- if (bowed) attr(path, "length") else ends$span
-  if (radius <= widest * span) return(NA_character_)
+  # A bowed path that was not found has no length.
+  if (is.null(span) || radius <= widest * span) return(NA_character_)
   sprintf("its radius, %.3g, is %.2g times %s, %.3g, as of another unit than the mesh", radius,
           radius / span, if (bowed) "its length" else "the distance of its ends", span)
 }

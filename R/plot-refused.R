@@ -31,6 +31,7 @@ plotted_instead <- c(
   population_settings = "Plot the simulated specimens: plot(faces$specimens[[1]]).",
   quality_limits = "Write a page of shapes with their grades: quality_report(shapes, file).",
   refine_settings = "Plot refined landmarks: plot(specimen, what = \"refinement\").",
+  repeat_settings = "Plot the shapes of the two visits: plot(shape).",
   review_settings = "Plot the specimen: plot(specimen).",
   rgl_scene = "It is drawn already; add to it by draw_lines() and draw_points().",
   ridge_line = "Plot the curve that it belongs to: plot(curve, \"panel\").",
@@ -80,6 +81,7 @@ plotted_instead <- c(
 #' S3method(plot,population_settings,refuse_plot)
 #' S3method(plot,quality_limits,refuse_plot)
 #' S3method(plot,refine_settings,refuse_plot)
+#' S3method(plot,repeat_settings,refuse_plot)
 #' S3method(plot,review_settings,refuse_plot)
 #' S3method(plot,rgl_scene,refuse_plot)
 #' S3method(plot,ridge_line,refuse_plot)

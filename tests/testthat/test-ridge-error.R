@@ -21,7 +21,8 @@ curvature_variance <- function(vb, it, targets, directions, jacobian, sigma, set
 # fit's normal there.
 curvature_when <- function(mesh, at, direction, moved, h, normal, ...) {
   mesh$vb[1:3, moved] <- mesh$vb[1:3, moved] + h * normal
-  curved <- curvature(mesh, vertices = at, ...)
+  # The mesh is small beside the radius.
+  curved <- suppressWarnings(curvature(mesh, vertices = at, ...), classes = "crestline_wide_radius")
   shape <- curved$k1[at] * tcrossprod(curved$direction1[at, ]) + curved$k2[at] *
     tcrossprod(curved$direction2[at, ])
   sum(direction * (shape %*% direction))
@@ -231,7 +232,8 @@ test_that("where balls are widened, the variance is that of the wider fits", {
     curvature_variance(mesh$vb[1:3, ], mesh$it, at, matrix(c(1, 0, 0)), matrix(1),
                        rep(0.3, ncol(mesh$vb)), kernel_settings(radius, "quadratic", ...))
   }
-  wide <- curvature(mesh, 4.3, "quadratic", vertices = at)$neighbours[at]
+  wide <- suppressWarnings(curvature(mesh, 4.3, "quadratic", vertices = at),
+                           classes = "crestline_wide_radius")$neighbours[at]
   expect_equal(variance(4.3 / 1.5, points_per_term = wide / 6), variance(4.3), tolerance = 1e-10)
   expect_equal(variance(4.3 / 1.5, points_per_term = wide / 6, widen = 1.4), 0)
 })
@@ -254,7 +256,8 @@ test_that("where no strength depends on the heights, the noise is not known, and
   surface <- list(coefficients = matrix(1), strength = 1, factor = matrix(1))
   expect_identical(noise_factor(surface, integer(), none, list(trace = 0, matrix = matrix(0))),
                    NA_real_)
-  job <- list(type = "ridge", route = "plane", radius = 1, settings = ridge_settings())
+  job <- list(type = "ridge", route = "plane", radius = 1, settings = ridge_settings(),
+              ends = list(span = 9))
   fit <- list(found = TRUE, scale = 1, line = list(se = rep(NA_real_, 5), at_bound = FALSE))
   judged <- judge_curve(job, fit)
   expect_false(judged$determined)
