@@ -183,8 +183,9 @@ reach_beyond <- function(known, gone) {
 missing_lines <- function(missing, most = 8) {
   vapply(split(missing, factor(missing$action, unique(missing$action))), function(gone) {
     count <- table(factor(gone$id, unique(gone$id)))
-    sprintf("missing and %s: %s of %s; most, %d, of %s", gone$action[1],
-            amount(nrow(gone), "point"),
-            shorten(names(count), most), max(count), names(count)[which.max(count)])
+    paste0(sprintf("missing and %s: %s of %s", gone$action[1], amount(nrow(gone), "point"),
+                   shorten(names(count), most)),
+           if (length(count) > 1) sprintf("; most, %d, of %s", max(count),
+                                          names(count)[which.max(count)]))
   }, "", USE.NAMES = FALSE)
 }

@@ -187,6 +187,8 @@ compare_groups <- function(sample, group, level = c("landmarks", "curves", "surf
   check_class(settings, "comparison_settings", "settings", "comparison_settings()")
   settings <- settings_with_former(settings, "comparison_settings", ...)
   tests <- settings$tests
+  # Before what align() warns of
+  if (has_scheme(sample)) suppressMessages(check_group(group, names(sample)))
   aligned <- aligned_levels(sample, level, settings$scale, settings$weights, settings$missing)
   group <- check_group(group, names(aligned[[1]]))
   check_memory(length(group) * as.numeric(n_perm), n_perm, "n_perm")
@@ -456,9 +458,10 @@ print.group_comparison <- function(x, most = 5, ...) {
     if (length(used)) cat("  T2 on ", paste(unique(used), collapse = ", "), " components\n",
                           sep = "")
     if (!is.null(x$points)) {
-      for (level in unique(x$points$level)) cat("  ",
-                                                points_line(x$points[x$points$level == level, ]),
-                                                "\n", sep = "")
+      for (level in unique(x$points$level)) {
+        line <- points_line(x$points[x$points$level == level, ])
+        cat(strwrap(line, width = 80, indent = 2, exdent = 4), sep = "\n")
+      }
     }
     invisible(x)
   })

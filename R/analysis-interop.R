@@ -14,7 +14,9 @@
 #' * `as_aligned()` converts in the other direction.
 #'
 #' @param sample A `shape_sample`, an `aligned`, or a k x 3 x n array.
-#' @param level Level of a `shape_sample`, as in [align()].
+#' @param level Level of a `shape_sample`, as in [align()]. If it is not given, the landmarks are
+#'   taken, with a message. In "curves" an end that several curves share is there once for each of
+#'   them; `weights = "places"` counts it once, and "model" has each point once.
 #' @param data Data frame of covariates with a row for each specimen, or `NULL`. Rows are matched to
 #'   the specimens by a column of names (`id`, `specimen`, `subject`, `name`, `file`, `sample`,
 #'   `scan` and the like, in upper or lower case) or by row names. Case, blanks and a file's
@@ -48,6 +50,7 @@ as_geomorph <- function(sample, level = c("landmarks", "curves", "surface", "mod
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
   if (inherits(sample, "aligned")) validate(sample)
+  if (missing(level)) say_level(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   columns <- covariates(data, dimnames(aligned$coords)[[3]])
   structure(c(list(coords = aligned$coords, size = aligned$size), columns),
@@ -60,6 +63,7 @@ as_rrpp <- function(sample, level = c("landmarks", "curves", "surface", "model")
                     ...) {
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
+  if (missing(level)) say_level(sample)
   frame <- as_geomorph(sample, level, data, ...)
   coords <- frame$coords
   flat <- matrix(aperm(coords, c(3, 2, 1)), dim(coords)[3])
@@ -76,6 +80,7 @@ as_morpho <- function(sample, level = c("landmarks", "curves", "surface", "model
   check_given()
   check_dots(..., known = names(formals(align))[-(1:2)])
   if (inherits(sample, "aligned")) validate(sample)
+  if (missing(level)) say_level(sample)
   aligned <- if (inherits(sample, "aligned")) sample else align(sample, level, ...)
   pca <- shape_pca(aligned, weights = rep(1, nrow(aligned$mean)))
   variance <- cbind(eigenvalues = pca$sdev^2, "% Variance" = 100 * pca$share,
@@ -126,6 +131,15 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
     dimnames(coords)[[1]], scale = scaled, tangent = FALSE, level = level,
     triangles = check_triangles(triangles, dim(coords)[1])
   ))
+}
+
+#' Say which points of a sample are handed over where no level is given
+#' @noRd
+say_level <- function(sample) {
+  if (!inherits(sample, "shape_sample")) return(invisible())
+  count <- function(level) nrow(level_places(sample$template, level))
+  crestline_inform(sprintf(paste("The %d landmarks are handed over. Give level = \"curves\" for %d",
+                                 "points of curves."), count("landmarks"), count("curves")))
 }
 
 sizes_by_specimen <- function(size, ids) {

@@ -4,9 +4,10 @@ check_array <- function(x, name = "sample") {
   if (!is.numeric(x) || length(dim(x)) != 3 || !dim(x)[2] %in% 2:3 || dim(x)[1] < dim(x)[2]) {
     size <- if (length(dim(x)) == 3) paste0("an array of ", paste(dim(x), collapse = " x ")) else
       describe_value(x)
+    one <- if (inherits(x, "shape")) " The points of one shape are coords(shape, level)." else ""
     crestline_abort(sprintf("`%s` is %s.", name, size),
-                    paste("Give a shape_sample, as homologise() returns it, or a k x 3 x n",
-                          "array of numbers."), stage = "align")
+                    paste0("Give a shape_sample, as homologise() returns it, or a k x 3 x n ",
+                           "array of numbers.", one), stage = "align")
   }
   if (any(is.infinite(x))) {
     crestline_abort(sprintf("`%s` has infinite values.", name), "Mark what is missing as NA.",

@@ -206,10 +206,17 @@ check_ends <- function(...) {
     located <- is.numeric(x) && identical(names(x), mesh_columns)
     position <- placed || located || (is.numeric(x) && length(x) == 3 && all(is.finite(x)))
     if (!position && !is_path(x)) {
-      refuse_argument(name, x,
-                      paste0("Give the name of a landmark, or three ", "finite co-ordinates."))
+      refuse_argument(name, x, end_words(x, "a landmark"))
     }
   }
+}
+
+#' What an end of a line may be; a number may be meant as the name of a landmark
+#' @noRd
+end_words <- function(x, landmark) {
+  number <- is.numeric(x) && length(x) == 1 && is.finite(x)
+  sprintf("Give the name of %s%s, or three finite co-ordinates.", landmark,
+          if (number) sprintf(" as text, such as \"%g\"", x) else "")
 }
 
 #' Regions in which strength does not count: one, a list of them, or NULL
@@ -311,9 +318,10 @@ check_path_to_write <- function(x, name, endings = NULL, stage = "arguments") {
 #'
 #' The first line of an exported function: R's own message would come from deep inside.
 #' @param but Arguments that may be left out in this call.
+#' @param called What was called, for the name of its help page.
 #' @noRd
 check_given <- function(but = character(), frame = parent.frame(),
-                        fn = sys.function(sys.parent())) {
+                        fn = sys.function(sys.parent()), called = sys.call(sys.parent())) {
   arguments <- formals(fn)
   arguments <- arguments[vapply(arguments, is.symbol, NA)]
   needed <- names(arguments)[!nzchar(vapply(arguments, as.character, ""))]
@@ -322,7 +330,18 @@ check_given <- function(but = character(), frame = parent.frame(),
   if (!length(absent)) return(invisible())
   crestline_abort(sprintf("%s %s not given.", paste0("`", absent, "`", collapse = ", "),
                           if (length(absent) == 1) "is" else "are"),
-                  "See the help page of the function.", stage = "arguments")
+                  given_words(absent, called), stage = "arguments")
+}
+
+#' What to give: the name of the help page, and a usual radius
+#' @noRd
+given_words <- function(absent, called) {
+  name <- sub("^crestline::", "", paste(deparse(called[[1]]), collapse = ""))
+  own <- is.function(get0(name, topenv(), inherits = FALSE))
+  page <- if (own) sprintf("See ?%s.", name) else "See the help page of the function."
+  if (!"radius" %in% absent) return(page)
+  width <- if ("width" %in% absent) "; `width` is often the same" else ""
+  sprintf("On a face in mm a radius is 10, or 5 at the lips%s. %s", width, page)
 }
 
 #' No argument that the function does not know

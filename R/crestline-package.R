@@ -178,6 +178,8 @@
 #'   points are the rows.
 #' * **strip**: triangles that join two patches which do not share a curve.
 #' * **bridged**: led across a hole of the mesh by flat triangles; points there are missing.
+#' * **spike**: a place where the mesh is crumpled: four triangles beside each other that are bent
+#'   by more than 30 degrees ([quality_limits()]). A sharp fold, as of a lid, counts as one.
 #' * **grade**: green (no doubt), amber (look at it) or red (do not use it as it is)
 #'   ([quality()]).
 #'

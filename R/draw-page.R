@@ -151,7 +151,7 @@ write_html <- function(html, file) {
 
 refuse_page <- function(path) {
   crestline_abort(sprintf("`file`: %s cannot be written.", path),
-                  "Check the folder, and the right to write there.",
+                  writing_words(path),
                   stage = "page", call = NULL)
 }
 

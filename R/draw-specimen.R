@@ -38,4 +38,4 @@ curvature_legend <- function(curvature, palette = NULL, quantile = 0.95, missing
 surface_choices <- c("natural", "shape index", "curvature", "plain")
 
 # Colours of curves by their kind.
-kind_colours <- c(ridge = "#C8102E", valley = "#16218C", plane = "#202020")
+kind_colours <- c(ridge = "#C8102E", valley = "#2350C8", plane = "#202020")

@@ -90,7 +90,7 @@ unpacked_name <- function(file) sub("[.]gz$", "", basename(file), ignore.case = 
 write_content <- function(content, file) {
   if (is_pipe(file)) refuse_writing(file, "it is a pipe, no file on disk", "Write to a file.")
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
-    refuse_writing(file, "it cannot be opened", "Check the folder and the right to write there.")
+    refuse_writing(file, "it cannot be opened", writing_words(file))
   })
   on.exit(close(connection))
   if (is.raw(content)) writeBin(content, connection) else
@@ -103,6 +103,12 @@ bytes_of <- function(x, size) {
   x <- t(as.matrix(x))
   if (size == 1L) storage.mode(x) <- "integer"
   matrix(writeBin(as.vector(x), raw(), size = size, endian = "little"), size * nrow(x))
+}
+
+# What to do about a file that cannot be written.
+writing_words <- function(file) {
+  if (dir.exists(dirname(file))) return("Check the right to write in its folder.")
+  sprintf("There is no folder %s: create it first.", dirname(file))
 }
 
 refuse_writing <- function(file, reason, remedy) {

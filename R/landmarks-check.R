@@ -15,9 +15,7 @@ as_landmarks <- function(x, id = NULL) {
   }
   if (!is.numeric(x) || !is.matrix(x) || ncol(x) != 3) {
     refuse_landmarks(sprintf("`landmarks` are %s, not a k x 3 numeric matrix.", describe_shape(x)),
-                     if (length(dim(x)) == 3 && dim(x)[3] == 1)
-                       "Give the matrix of the one specimen: landmarks[, , 1]." else
-                       "Give a matrix with one row a landmark, or a data frame name, x, y, z.", id)
+                     matrix_words(x), id)
   }
   name <- rownames(x)
   if (nrow(x) && (is.null(name) || anyNA(name) || any(!nzchar(name)))) {
@@ -30,8 +28,49 @@ as_landmarks <- function(x, id = NULL) {
     refuse_landmarks(sprintf("named twice: %s.", shorten(twice)),
                      "Give every landmark its own name.", id)
   }
+  warn_partial_rows(x, id)
   x[rowSums(!is.finite(x)) > 0, ] <- NA
   matrix(as.numeric(x), ncol = 3, dimnames = list(name, c("x", "y", "z")))
+}
+
+#' What to give in place of what is no matrix of numbers
+#' @noRd
+matrix_words <- function(x) {
+  if (length(dim(x)) == 3 && dim(x)[3] == 1) {
+    return("Give the matrix of the one specimen: landmarks[, , 1].")
+  }
+  text <- if (is.data.frame(x)) any(vapply(x, is.character, NA)) else
+    is.matrix(x) && is.character(x)
+  paste0(if (text) "The co-ordinates are text: make them numbers, as by as.numeric(). ",
+         "Give a matrix with one row a landmark, or a data frame name, x, y, z.")
+}
+
+#' Warn of landmarks of which only some co-ordinates are there
+#' @noRd
+warn_partial_rows <- function(given, id) {
+  gone <- !is.finite(given)
+  part <- which(rowSums(gone) %in% 1:2)
+  if (!length(part)) return(invisible())
+  axes <- vapply(part, function(i) paste(c("x", "y", "z")[gone[i, ]], collapse = " and "), "")
+  crestline_warn(sprintf("landmarks without some co-ordinate are taken as missing: %s.",
+                         shorten(sprintf("%s (no %s)", rownames(given)[part], axes))),
+                 "Look at their source, and give all three numbers.", stage = "landmarks",
+                 id = id, class = "crestline_partial_landmarks")
+}
+
+#' Warn of several landmarks at one place
+#' @noRd
+warn_same_place <- function(landmarks, id) {
+  at <- landmarks[!is.na(landmarks[, 1]), , drop = FALSE]
+  place <- row_text(at)
+  first <- match(place, place)
+  same <- which(first != seq_along(first))
+  if (!length(same)) return(invisible())
+  name <- rownames(at)
+  crestline_warn(sprintf("landmarks at one place: %s.",
+                         shorten(paste(name[first[same]], "and", name[same]))),
+                 "Look whether one of them was placed twice.", stage = "landmarks", id = id,
+                 class = "crestline_same_place")
 }
 
 refuse_landmarks <- function(problem, remedy, id) {

@@ -32,8 +32,7 @@ write_file_lines <- function(line, file) {
     refuse_landmark_file(file, "is a pipe, no file on disk", "Write to a file.")
   }
   connection <- tryCatch(suppressWarnings(file(file, "wb")), error = function(e) {
-    refuse_landmark_file(file, "cannot be written",
-                         "Check the folder and the right to write there.")
+    refuse_landmarks(sprintf("%s cannot be written.", file), writing_words(file), id = NULL)
   })
   line <- enc2utf8(line)
   tryCatch(writeLines(line, connection, useBytes = TRUE),

@@ -120,7 +120,7 @@ draw_curve_lines <- function(scene, curves, colours, points, width) {
 
 # The colour of each curve, and what the legend says of them: colours named by type, or by curve
 # where the user chose them.
-curve_key <- function(curves, colour, ridge = "#C8102E", valley = "#16218C", plane = "#202020") {
+curve_key <- function(curves, colour, ridge = "#C8102E", valley = "#2350C8", plane = "#202020") {
   if (!is.null(colour)) {
     colours <- rep_len(colour, length(curves))
     return(list(colours = colours,

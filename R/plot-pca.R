@@ -12,7 +12,8 @@
 #' @param group Group of each specimen, as in [compare_groups()], or `NULL`.
 #' @param colour Colours of the groups, or of the surfaces.
 #' @param sd For "shapes": distance from the mean, in standard deviations.
-#' @param labels For "scores": whether to write the names of the specimens.
+#' @param labels For "scores": whether to write the names of the specimens. By default they are
+#'   written if there are 20 specimens at most.
 #' @param ellipse For "scores": share of a normal distribution inside the ellipse of each group,
 #'   such as 0.95. 0: no ellipses. A group of two has no ellipse.
 #' @param view,... For "shapes", as in [draw_surface()], `engine` too ("rgl" draws as "picture").
@@ -29,7 +30,7 @@
 plot.shape_pca <- function(x, what = c("scores", "shapes"),
                            component = if (what[1] == "scores") 1:2 else 1, group = NULL,
                            colour = c("#2F7FD1", "#E0553F"), sd = 3, view = "front",
-                           labels = FALSE, ellipse = 0, ...) {
+                           labels = nrow(x$x) <= 20, ellipse = 0, ...) {
   validate(x)
   check_flags(labels)
   check_colour(colour, "colour")

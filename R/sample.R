@@ -257,7 +257,8 @@ check_joinable <- function(a, b) {
 #' @param x A `shape_sample`, as [homologise()] returns it, or one `shape` (n = 1).
 #' @param level Kind of points: "landmarks" (the default, as of [align()] and [as_geomorph()]),
 #'   "curves", "surface", or "model": every point of the model once, also where several curves and
-#'   patches share it. [coords()] of one shape gives "curves" by default.
+#'   patches share it. In "curves" an end that several curves share is there once for each of them;
+#'   `align(weights = "places")` counts it once. [coords()] of one shape gives "curves" by default.
 #' @param ... Ignored.
 #' @return k x 3 x n array in the unit of the meshes; each specimen keeps its position. The
 #'   dimension names are the points ("part point", or the names of landmarks), `x`, `y`, `z`, and

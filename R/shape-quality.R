@@ -78,6 +78,7 @@
 #'   * a landmark was found with doubt, or predicted: Look at it, and move it:
 #'     [review_landmarks()].
 #'   * a curve that bounds the patch is not green: Look at that curve; the patch follows it.
+#'   * a landmark is off the surface: Place it anew, or set it to NA.
 #'   * cut short: The scan or a curve is too short for the trimmed length. The share
 #'     is the part of the curve's typical length that the scheme keeps. Measure all specimens with
 #'     one `cut_scale`, by `measuring = shape_settings(cut_scale = )` of [fit_shapes()], no greater
@@ -94,8 +95,10 @@
 #'   * unlike the other side: Look at both sides. The face may be asymmetric.
 #'   * the surface is rough: Hair, noise or folds. Leave the part out, or scan again.
 #'   * the mesh is coarse: Use the scan before it was decimated.
-#'   * runs over a hole; beside a border or hole; beside a spike: Look whether the scan is sound
-#'     there.
+#'   * runs over a hole; beside a border or hole: Look whether the scan is sound there.
+#'   * beside a spike or fold: Four triangles there are bent by more than 30 degrees. It may be a
+#'     fault of the scan, or a true fold, as at the corner of a lid. Look at the picture. At a true
+#'     fold the points of the curve that are far from it can be used.
 #'   * along another feature than in the sample: Look at it beside the others; leave it out if it
 #'     is another feature.
 #'   * off its expected track: As above.
@@ -189,11 +192,6 @@ rows_together <- function(tables, names) {
   columns$specimen <- rep(names, vapply(tables, nrow, 0L))
   as.data.frame(columns, optional = TRUE)
 }
-
-#' Names of parts, patches as such: a curve may have the same name
-#' @noRd
-titled_parts <- function(parts) ifelse(parts$level == "surface", paste("patch", parts$part),
-                                       parts$part)
 
 #' Lines of what is not green: each part of one specimen; of several each specimen as a whole, and
 #' each kind of reason with its count
@@ -429,7 +427,7 @@ print_rows <- function(x, most) {
   cat("<shape_quality> ", amount(nrow(x), "row"), " of the parts of ",
       amount(length(unique(x$specimen)), "specimen"), "\n", sep = "")
   table <- as.data.frame(x)[c("specimen", "part", "level", "grade", "why")]
-  table$part <- ifelse(table$level == "surface", paste("patch", table$part), table$part)
+  table$part <- titled_parts(table)
   print(utils::head(table[setdiff(names(table), "level")], most), row.names = FALSE, right = FALSE)
   if (nrow(x) > most) cat("and", nrow(x) - most, "more: as.data.frame() has all\n")
   invisible(x)

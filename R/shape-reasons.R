@@ -9,6 +9,7 @@ reason_kinds <- c(
   "exchanged" = "a landmark looks exchanged with another",
   "confidence|predicted" = "a landmark was found with doubt, or predicted",
   "^bounded by" = "a curve that bounds the patch is not green",
+  "off the surface" = "a landmark is off the surface",
   "^cut at|of the scheme's share" = "cut short",
   "missing|not there|no landmark" = "points or landmarks are missing",
   "standard error" = "uncertain across the curve",
@@ -21,7 +22,7 @@ reason_kinds <- c(
   "coarse" = "the mesh is coarse",
   "over a hole" = "runs over a hole",
   "border or hole" = "beside a border or hole",
-  "spike" = "beside a spike",
+  "spike" = "beside a spike or fold",
   "homologous points" = "along another feature than in the sample",
   "expected track" = "off its expected track",
   "triangle" = "flipped, doubled or crossing triangles"
@@ -37,6 +38,11 @@ reason_kind <- function(text) {
   }
   ifelse(is.na(kind), gsub("[0-9.]+", "...", text), kind)
 }
+
+#' Names of parts, patches as such: a curve may have the same name
+#' @noRd
+titled_parts <- function(parts) ifelse(parts$level == "surface", paste("patch", parts$part),
+                                       parts$part)
 
 #' Lines that count the parts that are not green, one for each grade and kind of reason
 #'
@@ -56,7 +62,7 @@ reason_lines <- function(table) {
   lines <- vapply(groups, function(at) {
     own <- table[row[at], ]
     sprintf("%s: %s of %s, such as %s of %s: %s", group[at[1]], amount(nrow(own), "part"),
-            amount(length(unique(own$specimen)), "specimen"), own$part[1], own$specimen[1],
+            amount(length(unique(own$specimen)), "specimen"), titled_parts(own)[1], own$specimen[1],
             unlist(each)[at[1]])
   }, "")
   unname(lines[order(-worst, -lengths(groups))])

@@ -59,7 +59,10 @@
 #'     by more than 0.01 of the size;
 #'   * `crestline_bare_piece`: a piece with more than 20 % of the triangles has no landmark, while
 #'     another piece has some. It may be a second object of the same kind. [find_landmarks()] warns
-#'     of it too.
+#'     of it too;
+#'   * `crestline_partial_landmarks`: a landmark lacks one or two of its three co-ordinates, and is
+#'     taken as missing;
+#'   * `crestline_same_place`: two landmarks have the same co-ordinates.
 #'
 #'   Corners within 1e-6 of the size are joined without a warning: both sides of a seam, single
 #'   triangles, vertices on the edge of another triangle.
@@ -83,6 +86,7 @@ specimen <- function(mesh, landmarks = NULL, id = NULL, outward = "detect", tole
   id <- check_id(id)
   tolerance <- check_tolerance(tolerance)
   landmarks <- as_landmarks(landmarks, id) * rescale
+  warn_same_place(landmarks, id)
   door <- check_mesh(rescaled_mesh(mesh, rescale), id, outward, debris)
   placed <- check_landmarks(landmarks, door$mesh, id, tolerance, midline, door$topology$piece)
   # What the report says of a specimen in another unit than it was given
@@ -181,10 +185,8 @@ print.specimen <- function(x, ...) {
                 exdent = 2), sep = "\n")
     if (any(absent)) cat("missing:", shorten(name[absent], 20), "\n")
     print_placing(x$placing)
-    if (isFALSE(x$match$unit_known)) {
-      cat(sprintf("- unit unknown: about %.3g mm to 1, as if it were as large as the template\n",
-                  x$match$unit))
-    }
+    unit <- unit_line(x$match)
+    if (!is.null(unit)) cat(unit, "\n", sep = "")
     # What print() says of exchanged landmarks
     words <- exchange_words(x$geometry$slips)
     if (length(words))
@@ -198,6 +200,17 @@ print.specimen <- function(x, ...) {
     }
     invisible(x)
   })
+}
+
+#' What find_landmarks() took the unit for; nothing where it is the template's
+#' @noRd
+unit_line <- function(match) {
+  if (isFALSE(match$unit_known)) {
+    return(sprintf("- unit unknown: about %.3g mm to 1, as if it were as large as the template",
+                   match$unit))
+  }
+  if (is.null(match$unit) || isTRUE(all.equal(match$unit, 1))) return(NULL)
+  sprintf("- unit: lengths times %.4g are in the unit of the template", match$unit)
 }
 
 #' A specimen whose landmarks that were changed since are located once, for many uses
@@ -342,7 +355,7 @@ end_vector <- function(specimen, scan, at, name) {
     place <- surface_points(scan, matrix(at, 1))
   } else {
     crestline_abort(sprintf("%s is %s.", said, describe_value(at)),
-                    "Give the name of a landmark of a specimen, or three finite co-ordinates.",
+                    end_words(at, "a landmark of a specimen"),
                     stage = "path", class = "crestline_path_error", call = NULL)
   }
   unlist(unclass(place)[mesh_columns])

@@ -53,7 +53,8 @@ describe_value <- function(x, most = 60) {
     return(sprintf("%s of %s", if (is.matrix(x)) "a matrix" else "an array",
                    paste(dim(x), collapse = " x ")))
   }
-  first <- utils::head(format(x), 3)
+  # format() would fill up text with blanks
+  first <- utils::head(if (is.character(x)) paste(x) else format(x), 3)
   long <- nchar(first) > most
   first[long] <- paste0(substr(first[long], 1, most - 3), "...")
   shown <- paste(first, collapse = ", ")

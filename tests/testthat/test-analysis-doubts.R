@@ -86,6 +86,8 @@ test_that("an alignment and a comparison print how many points were estimated, a
   aligned <- align(lacking, limits = sample_limits(beyond = Inf))
   expect_output(print(aligned), "missing and estimated: 4 points of s1, s2, s3; most, 2, of s2",
                 fixed = TRUE)
+  gone <- data.frame(id = "s1", point = c("a", "b"), action = "estimated")
+  expect_identical(missing_lines(gone), "missing and estimated: 2 points of s1")
   compared <- compare_groups(aligned, rep(1:2, 10), n_perm = 19, progress = FALSE,
                              settings = comparison_settings(tests = "size"))
   expect_output(print(compared), "missing and estimated: 4 points of s1, s2, s3", fixed = TRUE)

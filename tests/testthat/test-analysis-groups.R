@@ -355,6 +355,12 @@ test_that("the least p-value is that of the regroupings, and one above 0.05 is t
   few <- grouped_sample(c(2, 2))
   expect_warning(compare_quietly(few$x, few$group, tests = "size"), "below 0.33",
                  class = "crestline_few_permutations")
+  # What helps: more specimens where all regroupings are used
+  remedy <- function(...) rlang::catch_cnd(compare_quietly(...), "crestline_warning")$remedy
+  expect_match(remedy(few$x, few$group, tests = "size"), "more specimens are needed")
+  expect_no_match(remedy(few$x, few$group, tests = "size"), "n_perm")
+  expect_match(remedy(made$x, made$group, n_perm = 9, exact = 0, tests = "shape"),
+               "greater `n_perm`")
 })
 
 test_that("components are printed with p-values that are adjusted for their number", {

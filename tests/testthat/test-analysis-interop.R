@@ -115,3 +115,17 @@ test_that("sizes with names go to specimens by name", {
   other <- stats::setNames(aligned$size, LETTERS[11:26])
   expect_crestline_error(as_aligned(aligned$coords, size = other), "`size` has no value for a")
 })
+
+test_that("which points of a sample are handed over is said if no level is given", {
+  shapes <- Map(function(east, id) {
+    shape <- quad_shape(landmarks = quad_corners(east = east))
+    shape$id <- id
+    shape
+  }, c(28, 29, 31), c("a", "b", "c"))
+  sample <- suppressMessages(homologise(shapes, progress = FALSE))
+  expect_message(as_rrpp(sample), "The 4 landmarks are handed over. Give level = \"curves\" for 24")
+  expect_message(as_morpho(sample), "4 landmarks")
+  expect_no_message(as_geomorph(sample, "curves"))
+  expect_no_message(as_geomorph(align(sample)))
+  expect_crestline_error(as_geomorph(shapes[[1]]), "coords(shape, level)")
+})

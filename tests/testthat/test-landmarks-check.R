@@ -44,9 +44,18 @@ test_that("NA, NaN and Inf are missing landmarks", {
   x <- egg_landmarks()
   x["gn", 2] <- NA
   x["pn", ] <- Inf
-  s <- specimen(egg(), x)
+  expect_warning(s <- specimen(egg(), x), "taken as missing: gn (no y).", fixed = TRUE,
+                 class = "crestline_partial_landmarks")
   expect_true(all(is.na(s$landmarks[c("gn", "pn"), ])))
   expect_match(s$report$action[s$report$check == "landmarks missing"], "pn, gn")
+})
+
+test_that("two landmarks at one place are told of", {
+  x <- egg_landmarks()
+  expect_no_warning(specimen(egg(), x))
+  x["gn", ] <- x["pn", ]
+  expect_warning(specimen(egg(), x), "landmarks at one place: pn and gn",
+                 class = "crestline_same_place")
 })
 
 test_that("a landmark 5 mm off a face is refused by name, a nearer one put on it", {

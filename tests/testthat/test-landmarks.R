@@ -145,3 +145,17 @@ test_that("a session with decimal commas and few digits writes the same files", 
   rlang::local_options(OutDec = ",", digits = 3, scipen = -9)
   expect_identical(written(), usual)
 })
+
+test_that("what is not read says what reads it, or what to give", {
+  text <- tempfile(fileext = ".txt")
+  on.exit(unlink(text))
+  writeLines("[individuals]", text)
+  expect_crestline_error(read_landmarks(text), "geomorph::read.morphologika()")
+  expect_crestline_error(specimen(ball_mesh(), array(0, c(4, 3, 1))),
+                         c("4 x 3 x 1", "landmarks[, , 1]"))
+  words <- data.frame(V1 = "a", x = "1", y = "0", z = "0")
+  expect_crestline_error(specimen(ball_mesh(), words), "The co-ordinates are text")
+  file <- file.path(tempfile("none"), "x.csv")
+  expect_crestline_error(write_landmarks(rbind(a = 1:3), file),
+                         c(file, paste("There is no folder", dirname(file))))
+})

@@ -8,6 +8,10 @@ test_that("a face in no unit is found as in mm, and its unit is said to be a gue
   expect_equal(found$match$unit * 3.7, 1, tolerance = 0.12)
   expect_equal(found$match$scale, 1)
   expect_output(print(found), "unit unknown: about", fixed = TRUE)
+  expect_identical(unit_line(list(unit = 10, unit_known = TRUE)),
+                   "- unit: lengths times 10 are in the unit of the template")
+  expect_null(unit_line(list(unit = 1, unit_known = TRUE)))
+  expect_null(unit_line(NULL))
   inner <- setdiff(rownames(humface_landmarks()), ear_names)
   off <- row_lengths(found$landmarks[inner, ] / 3.7 - humface_landmarks()[inner, ])
   expect_lt(mean(off), 2)

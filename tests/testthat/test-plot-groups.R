@@ -137,3 +137,28 @@ test_that("a map holds what is asked", {
   expect_equal(held_p(points, "fwe", 1), 2 * p)
   expect_equal(held_p(points, "none", 1), p)
 })
+
+test_that("the title of a map counts the points that have a test", {
+  compared <- bumped_balls()
+  compared$points$p_adjusted[1:2] <- NA
+  file <- tempfile(fileext = ".pdf")
+  on.exit(unlink(file))
+  grDevices::pdf(file, compress = FALSE, useKerning = FALSE)
+  plot(compared, "map", engine = "picture")
+  grDevices::dev.off()
+  expect_match(readLines(file, warn = FALSE), sprintf(" of %d points", nrow(compared$points) - 2),
+               all = FALSE, useBytes = TRUE)
+})
+
+test_that("the unit of a picture of a map is that of its key too", {
+  compared <- bumped_balls()
+  drawn <- function(...) {
+    file <- tempfile(fileext = ".png")
+    on.exit(unlink(file))
+    write_picture(compared, file, what = "map", size = c(8, 6), dpi = 72, ruler = FALSE, ...)
+    readBin(file, "raw", file.size(file))
+  }
+  cm <- drawn(unit = "cm")
+  expect_identical(cm, drawn(length_unit = "cm"))
+  expect_false(identical(cm, drawn()))
+})

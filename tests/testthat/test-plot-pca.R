@@ -64,3 +64,18 @@ test_that("scores have labels and ellipses, and shapes without a surface are dra
   expect_equal(mahalanobis(ring, colMeans(xy), cov(xy)), rep(qchisq(0.9, 2), 100))
   expect_crestline_error(plot(pca, ellipse = 2), "`ellipse`")
 })
+
+test_that("few specimens have their names in a plot of scores, many have not", {
+  words <- function(n) {
+    file <- tempfile(fileext = ".pdf")
+    on.exit(unlink(file))
+    x <- grouped_sample(c(n, n))$x
+    dimnames(x)[[3]] <- sprintf("face%02d", seq_len(2 * n))
+    grDevices::pdf(file, compress = FALSE, useKerning = FALSE)
+    plot(shape_pca(align(x)))
+    grDevices::dev.off()
+    sum(grepl("(face", readLines(file, warn = FALSE), fixed = TRUE, useBytes = TRUE))
+  }
+  expect_identical(words(10), 20L)
+  expect_identical(words(11), 0L)
+})

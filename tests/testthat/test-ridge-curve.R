@@ -374,3 +374,20 @@ test_that("a curve much longer than its ends are apart is not determined", {
   expect_false(curve$determined)
   expect_true(of_bent()$determined)
 })
+
+test_that("a hole in the window of a curve along its edge is named; print keeps to 80 columns", {
+  u <- c(-13.3, 13.6)
+  winding <- graph_specimen(quote(6 * exp(-(v - 3 * sin(u / 4))^2 / 50)),
+                            two_ends(u, 3 * sin(u / 4)))
+  # A triangle beside the middle of the straight line between the ends is missing
+  mesh <- winding$mesh
+  off <- sweep(Reduce(`+`, face_corners(mesh)) / 3, 2, colMeans(winding$landmarks))
+  gone <- which.min(row_lengths(cbind(off[, 1:2], 0)))
+  mesh$it <- mesh$it[, -gone]
+  holed <- specimen(mesh, winding$landmarks, id = "graph", outward = "keep")
+  expect_warning(curve <- curve_of(holed, "a", "b", "ridge", radius = 4, width = 1, n = 9,
+                                   settings = ridge_settings(lambda = 1e-7)),
+                 "Fill the hole", class = "crestline_undetermined")
+  expect_match(curve$reason, "edge of the window, in which there is a hole or border")
+  expect_lte(max(nchar(utils::capture.output(print(curve)))), 80)
+})

@@ -348,6 +348,13 @@ test_that("print counts reasons by kind, and every check has a kind", {
   graded <- quality(list(one = shape, two = shape))
   expect_output(print(graded), "amber: cut short: 4 parts of 2 specimens, such as bottom of one")
   expect_identical(sum(grepl("cut short", capture.output(print(graded)))), 1L)
+  expect_output(print(graded), "lengths of curves are not compared")
+  expect_output(print(graded, most = 0), "more that are not green: print(x, most = Inf)",
+                fixed = TRUE)
+  shape$status$reason[shape$status$part == "quad"] <- "2 flipped triangles"
+  expect_output(print(quality(shape)), "patch quad: 2 flipped triangles")
+  expect_identical(reason_kind("off the surface by more than 2: tL (by 3)"),
+                   "a landmark is off the surface")
   # What the checks say is of a kind that the help explains.
   value <- as.data.frame(quality(shape))
   said <- said_of_parts(cbind(value, se_max = 1, track = 3), value$z, shape$scheme)
@@ -417,4 +424,21 @@ test_that("specimens graded together have the grades that each has alone", {
   scores <- sample_scores(measured, NULL, quality_limits())
   expect_identical(graded_measures(measured, scores, quality_limits(), block = 1),
                    graded_measures(measured, scores, quality_limits()))
+})
+
+test_that("of a curve the error says where its verdict is", {
+  curve <- ridge_curve(quad_specimen(), "a", "b", "plane", n = 5)
+  expect_crestline_error(quality(curve), c("grades shapes", "`determined`"))
+})
+
+test_that("a difference of two sides sends the reader to both, one of the mid-line does not", {
+  value <- data.frame(part = c("left", "bottom"), level = "curves", asymmetry = 0.1)
+  for (name in c("se", "se_max", "competing", "contrast", "roughness", "coarse", "bridged",
+                 "border", "spike", "offset", "track")) value[[name]] <- 0
+  pairs <- data.frame(level = "curves", left = "left", right = "right")
+  said <- said_of_parts(value, c(0, 0), list(pairs = pairs))$asymmetry
+  expect_identical(said, c(
+    "it is off the mirror image of right by 10 % of its length: look at both sides",
+    "it is off its own mirror image by 10 % of its length"
+  ))
 })

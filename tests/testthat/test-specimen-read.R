@@ -39,3 +39,18 @@ test_that("new names of which none is there are named", {
   expect_warning(read_specimen(file, landmarks, names = c(pn = "prn", nobody = "x")),
                  "`names` has nobody", class = "crestline_warning")
 })
+
+test_that("landmarks of a file without names take names in its order", {
+  file <- tempfile(fileext = ".ply")
+  tps <- tempfile(fileext = ".tps")
+  on.exit(unlink(c(file, tps)))
+  Rvcg::vcgPlyWrite(Rvcg::vcgSphere(3), file)
+  writeLines(c("LM3=2", "0 0 1", "1 0 0"), tps)
+  one <- read_specimen(file, tps, names = c("pn", "chL"))
+  expect_equal(one$landmarks, rbind(pn = c(x = 0, y = 0, z = 1), chL = c(1, 0, 0)),
+               tolerance = 1e-6)
+  expect_crestline_error(read_specimen(file, tps, names = "pn"),
+                         c("1 name without old ones, for 2 landmarks", "c(`1` = \"pn\")"))
+  named <- rbind(a = c(0, 0, 1), b = c(1, 0, 0))
+  expect_crestline_error(read_specimen(file, named, names = c("pn", "chL")), "c(a = \"pn\")")
+})

@@ -31,7 +31,7 @@ test_that("two results of one scan have their own landmarks", {
   made <- stored_example()
   on.exit(unlink(made$dir, recursive = TRUE))
   moved <- made$whole$landmarks
-  moved["a", ] <- moved["b", ]
+  moved[c("a", "b"), ] <- moved[c("b", "a"), ]
   other <- read_specimen(made$mesh, moved)
   second <- stored_specimen(other, unclass(made$stored)$source)
   expect_identical(made$stored$geometry$landmarks, made$whole$geometry$landmarks)
