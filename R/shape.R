@@ -124,6 +124,10 @@ check_shape_on <- function(shape, specimen) {
 #' @export
 coords <- function(x, level = "curves", ...) {
   check_given()
+  if (inherits(x, "specimen")) {
+    refuse_argument("x", x, paste("The landmarks of a specimen are `specimen$landmarks`. Points of",
+                                  "curves come from fit_shape()."))
+  }
   if (!inherits(x, "curve")) check_class(x, "shape", "x", "fit_shape()")
   UseMethod("coords")
 }

@@ -136,7 +136,8 @@ test_that("what cannot be written is refused with the remedy, what a format lack
   ball <- ball_mesh(1)
   expect_crestline_error(write_mesh(ball, "ball.off"), c("ball.off", "Known: .ply, .obj, .stl"))
   expect_crestline_error(write_mesh(ball, 5), "path of one file")
-  expect_crestline_error(write_mesh(ball, "/none/at/all.ply"), c("all.ply", "right to write"))
+  expect_crestline_error(write_mesh(ball, "/none/at/all.ply"),
+                         c("all.ply", "There is no folder /none/at"))
   expect_crestline_error(write_mesh("ball", "ball.ply"), "mesh3d")
   expect_crestline_error(write_mesh(structure(list(vb = ball$vb), class = "mesh3d"), "a.ply"),
                          "no triangles")
