@@ -36,7 +36,8 @@ test_that("a normal curvature's variance is that of its derivatives by vertices'
   at <- which.min(colSums(mesh$vb[1:2, ]^2))
   radius <- 4.3
   for (order in c("quadratic", "cubic", "quartic")) {
-    curved <- curvature(mesh, radius, order, vertices = at)
+    curved <- suppressWarnings(curvature(mesh, radius, order, vertices = at),
+                               classes = "crestline_wide_radius")
     normal <- curved$normal[at, ]
     for (direction in list(curved$direction1[at, ],
                            (curved$direction1[at, ] + curved$direction2[at, ]) / sqrt(2))) {
@@ -258,7 +259,8 @@ test_that("where no strength depends on the heights, the noise is not known, and
                    NA_real_)
   job <- list(type = "ridge", route = "plane", radius = 1, settings = ridge_settings(),
               ends = list(span = 9))
-  fit <- list(found = TRUE, scale = 1, line = list(se = rep(NA_real_, 5), at_bound = FALSE))
+  fit <- list(found = TRUE, scale = 1, path = structure(matrix(0, 2, 3), length = 9),
+              line = list(se = rep(NA_real_, 5), at_bound = FALSE))
   judged <- judge_curve(job, fit)
   expect_false(judged$determined)
   expect_match(judged$reason, "standard error")
