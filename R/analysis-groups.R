@@ -386,7 +386,7 @@ check_group <- function(group, ids) {
   if (nlevels(group) < 2) fail("there is one group only.", "Give two or more.")
   if (min(table(group)) < 2) {
     fail(sprintf("the group \"%s\" has one specimen.", names(which.min(table(group)))),
-         "Give every group two or more. Two single shapes: plot(align(sample)) draws both.")
+         "Give every group two or more. Two single shapes: plot(sample) draws both.")
   }
   group
 }

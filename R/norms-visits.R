@@ -389,8 +389,10 @@ print.visit_comparison <- function(x, most = 6, ...) {
     if (lost) cat(sprintf("  not assessed, as missing or without `error`: %d\n", lost))
     best <- surface[which.max(abs(surface$change)), ]
     if (nrow(best)) {
-      cat(sprintf("  largest change %.3g +- %.2g%s at %s %s (detectable from %.2g)\n", best$change,
-                  best$se, unit, best$part, best$point, best$detectable))
+      known <- if (is.na(best$se)) c("", "") else
+        sprintf(c(" +- %.2g", " (detectable from %.2g)"), c(best$se, best$detectable))
+      cat(sprintf("  largest change %.3g%s%s at %s %s%s\n", best$change, known[1], unit, best$part,
+                  best$point, known[2]))
     }
     called <- x$parts[x$parts$called, ]
     called <- called[order(-abs(called$change / called$se)), ]

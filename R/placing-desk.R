@@ -89,10 +89,19 @@ digitise <- function(specimens, scheme = face_scheme(), dir = NULL, observer = "
   check_dots(..., known = names(formals(shiny::runApp))[-1])
   desk <- desk_from(sources, scheme, dir, observer, blank, settings, page)
   desk <- run_review(
-    review_page("Digitise", several = length(sources) > 1, cancel = is.null(dir)),
+    review_page("Digitise", several = length(sources) > 1, cancel = is.null(dir),
+                kept = desk_kept(dir)),
     desk_server(desk, desk_surfaces("natural", page, view), result = identity), ...
   )
   digitised_from(with_recorded_reviews(desk, dir))
+}
+
+#' Where the work of a desk is, as its page says at the end
+#' @noRd
+desk_kept <- function(dir) {
+  paste0("All landmarks and curves are in the value of digitise() in R",
+         if (!is.null(dir)) sprintf(", and in the folder %s", normalizePath(dir, mustWork = FALSE)),
+         ".")
 }
 
 #' @rdname digitise

@@ -3,8 +3,10 @@
 
 #' @param several Whether there is a next specimen.
 #' @param cancel Whether the page can end without any change.
+#' @param kept Where the work is, as the page says at its end.
 #' @noRd
-review_page <- function(title, several = FALSE, cancel = TRUE) {
+review_page <- function(title, several = FALSE, cancel = TRUE,
+                        kept = "The landmarks and curves are the value of the call in R.") {
   tags <- shiny::tags
   button <- function(id, label, title) shiny::actionButton(id, label, title = title)
   shiny::fillPage(
@@ -12,7 +14,7 @@ review_page <- function(title, several = FALSE, cancel = TRUE) {
     tags$head(shiny::includeCSS(review_file("review.css")),
               tags$meta(name = "viewport", content = "width=device-width, initial-scale=1")),
     tags$div(
-      id = "review",
+      id = "review", `data-kept` = kept,
       tags$div(id = "view", rgl::rglwidgetOutput("face", width = "100%", height = "100%")),
       view_buttons(),
       tags$div(
@@ -21,6 +23,7 @@ review_page <- function(title, several = FALSE, cancel = TRUE) {
                               button("previous", "Previous", "The specimen before (P)"),
                               button("following", "Next", "The next specimen (N)")),
         shiny::uiOutput("chosen"), review_buttons(button, cancel), shiny::uiOutput("list"),
+        line_colours(),
         tags$p(class = "help", "Click on the surface: the chosen landmark goes there, or the",
                "chosen curve gets a point. Click on a ball: that one is chosen; then drag it to",
                "move it. Drag the surface: turn; near the edge of the picture: roll.",
@@ -45,6 +48,17 @@ view_buttons <- function() {
                   one("Right side", 90, "The subject's own right side (1)"),
                   one("Front", 0, "From the front, the whole of it (2)"),
                   one("Left side", -90, "The subject's own left side (3)"))
+}
+
+#' What the colours of lines mean
+#' @noRd
+line_colours <- function() {
+  one <- function(colour, ...) {
+    list(shiny::tags$span(class = "dot", style = paste0("background:", colour)), ...)
+  }
+  shiny::tags$p(id = "lines", class = "help", one(kind_colours[["ridge"]], "ridge"),
+                one(kind_colours[["valley"]], "valley"), one(kind_colours[["plane"]], "plane cut"),
+                one(review_colours()$selected, "chosen"), "; thick: drawn by hand")
 }
 
 review_buttons <- function(button, cancel) {
@@ -168,6 +182,7 @@ answer_steps <- function(input, step, frame, progress) {
     shiny::observeEvent(input[[id]], step(function(desk) of(desk, change)))
   }
   # The scene is in the browser: now landmarks and curves can be sent to it.
+  shiny::observeEvent(input$ready, step(identity))
   on("ready", function(now) {
     if (!is.null(now$fitting) && is.null(now$fitting$refitted)) {
       now$fitting <- refit_curves(now$fitting, now$specimen, progress = progress)
@@ -296,9 +311,13 @@ done_words <- function(review) {
   }
   scheme <- review$fitting$scheme
   cut <- scheme$curves$curve[scheme$curves$from %in% absent | scheme$curves$to %in% absent]
-  lost <- if (length(cut)) sprintf(": %s cannot be measured, nor the patches between them. %s",
-                                   amount(length(cut), "curve"),
-                                   "Predict them in R: find_landmarks(specimen) keeps the others")
+  cut <- setdiff(cut, names(review$drawn))
+  lost <- if (length(cut)) {
+    sprintf(": %s and %d of %s cannot be measured. %s", amount(length(cut), "curve"),
+            surface_without(scheme, cut, absent),
+            amount(sum(scheme$points$level == "surface"), "surface point"),
+            "Predict them in R: find_landmarks(specimen) keeps the others")
+  }
   paste0(amount(length(absent), "landmark"), " not on this scan (", shorten(absent, 4), ")", lost)
 }
 
@@ -382,13 +401,23 @@ list_html <- function(review) {
     line <- review$drawn[[name]]
     state <- if (is.null(line)) "" else if (line$snapped) "snapped" else "drawn"
     doubt <- curve_doubt(review, name)
+    unseen <- is.null(line$path) && is.null(review$fitting$fits[[name]]$path)
     list_row("curve", name, curves$kind[i],
              if (is.na(doubt)) state else paste(c(state[nzchar(state)], "look"), collapse = ", "),
-             kind_colours[[curves$kind[i]]], c(state, if (!is.na(doubt)) "doubtful"),
+             kind_colours[[curves$kind[i]]],
+             c(state, if (!is.na(doubt)) "doubtful", if (unseen) "unseen"),
              identical(name, review$pen),
-             c(record_words(review, name, "curves"), if (!is.na(doubt)) doubt))
+             c(record_words(review, name, "curves"), if (!is.na(doubt)) doubt,
+               if (unseen) unseen_words(review, name)))
   })
   tags$div(id = "landmarks", rows, lines)
+}
+
+#' Why a curve has no line
+#' @noRd
+unseen_words <- function(review, name) {
+  reason <- c(review$fitting$fits[[name]]$reason, NA)[1]
+  if (is.na(reason)) "there is no line yet" else paste("there is no line:", reason)
 }
 
 list_row <- function(kind, name, words, told, colour, state, chosen, record) {

@@ -26,7 +26,7 @@ begin_review <- function(specimen, scheme, least, settings, bridge, threads, obs
   same <- match(sub("^as ", "", where), names)
   alike <- startsWith(where, "as ") & !is.na(same)
   where[alike] <- where[same[alike]]
-  about <- data.frame(landmark = names, name = words("name"), where = where)
+  about <- data.frame(landmark = names, name = words("name"), where = with_plain_words(where))
   fitting <- if (!is.null(scheme)) begin_fitting(specimen, scheme, settings, bridge, threads)
   there <- about$landmark %in% rownames(specimen$landmarks)[!is.na(specimen$landmarks[, 1])]
   said <- specimen$placing$state[match(about$landmark, specimen$placing$landmark)]
@@ -36,6 +36,27 @@ begin_review <- function(specimen, scheme, least, settings, bridge, threads, obs
        state = stats::setNames(state, about$landmark), least = least, selected = character(),
        drawn = list(), pen = character(), observer = observer, log = no_steps(), history = list(),
        future = list(), said = "")
+}
+
+#' Definitions with plain words for those that are easily misread; a scheme that defines a landmark
+#' otherwise keeps its own words
+#' @noRd
+with_plain_words <- function(where) {
+  plain <- c(
+    "midline point level with the nasal root at the brow ridge" = paste(
+      "from the side: on the brow ridge, more than 1 cm above the deepest point of the nose's root"
+    ),
+    "deepest midline point of the nasofrontal angle" = paste(
+      "from the side: the deepest point between forehead and nose, about 1 cm above the inner",
+      "corners of the eyes"
+    ),
+    "most lateral point of the curved base line of the nasal ala" = paste(
+      "where the wing of the nose is widest, in its groove to the cheek: not on the outline that",
+      "the front view shows"
+    )
+  )
+  more <- plain[where]
+  ifelse(is.na(more), where, paste0(where, " (", more, ")"))
 }
 
 #' Which landmarks were found with too little confidence

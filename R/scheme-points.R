@@ -81,6 +81,33 @@ curve_places <- function(curve, point, curves) {
   ifelse(is.na(end), paste("curves", curve, point, sep = "|"), paste("landmarks", end, sep = "|"))
 }
 
+#' How many surface points a scheme loses with curves and landmarks: those on them, and the columns
+#' that end on them
+#'
+#' @param curves,landmarks Names of those that are not there.
+#' @noRd
+surface_without <- function(scheme, curves, landmarks) {
+  gone <- function(place) {
+    startsWith(place, "landmarks|") & sub("^landmarks\\|", "", place) %in% landmarks |
+      startsWith(place, "curves|") & sub("^curves\\|(.*)\\|[0-9]+$", "\\1", place) %in% curves
+  }
+  end_gone <- function(column, text, resample) {
+    if (is.na(text)) return(rep(FALSE, length(column)))
+    place <- side_places(column, text, resample, scheme$curves)
+    # A point of a resampled side lies between points of its curves
+    ifelse(is.na(place), any(side_points(text)$curve %in% curves), gone(place))
+  }
+  open <- unlist(lapply(seq_len(nrow(scheme$patches)), function(i) {
+    block <- scheme$patches[i, ]
+    column <- block_points(block)$column
+    end_gone(column, block$curve_a, block$resample_a) |
+      end_gone(column, block$curve_b, block$resample_b)
+  }))
+  plan <- scheme_plan(scheme)
+  place <- plan$places[plan$at[scheme$points$level == "surface"]]
+  sum(ifelse(startsWith(place, "surface|"), open, gone(place)))
+}
+
 #' Every point of a scheme
 #'
 #' @return Data frame `level`, `part`, `point`, `place`: points of one place have one name of it.

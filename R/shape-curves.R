@@ -307,6 +307,16 @@ given_fits <- function(scan, curves) {
   fits
 }
 
+#' How far the points of a given curve were from the mesh; "on the mesh" as far as numbers hold
+#'
+#' @param off Greatest distance. @param rounding Of co-ordinates, as a share of their size.
+#' @noRd
+given_words <- function(off, scan, rounding = 1e-12) {
+  size <- max(abs(scan$specimen$mesh$vb[1:3, ]))
+  if (off <= rounding * size) return("as given: points on the mesh")
+  sprintf("as given: points up to %.2g from the mesh", off)
+}
+
 #' One given curve: its points on the mesh, its ends at the landmarks, joined by cuts
 #'
 #' @param tolerance Greatest distance of a point from the mesh, in its unit.
@@ -332,7 +342,7 @@ given_fit <- function(row, xyz, scan, tolerance) {
   }
   points <- if (own) data.frame(knots, s = joined$s) else resample_path(scan, joined$path, row$n)
   points[seq_len(joined$first - 1), ] <- NA
-  said <- sprintf("as given: points up to %.2g from the mesh", max(off[joined$first:nrow(xyz)]))
+  said <- given_words(max(off[joined$first:nrow(xyz)]), scan)
   if (joined$first > 1) {
     said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first, row$n,
                     joined$problem)
@@ -378,7 +388,7 @@ given_loop <- function(row, xyz, scan, tolerance) {
   } else spaced_points(scan, loop, row$n)
   new_record(points = cbind(placed[c(mesh_columns, "s")], se = NA_real_), path = loop,
              length = attr(loop, "length"),
-             reason = sprintf("as given: points up to %.2g from the mesh", max(off)))
+             reason = given_words(max(off), scan))
 }
 
 #' A closed path that begins where it is nearest to the landmark of a scheme's curve, and runs as

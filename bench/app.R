@@ -78,7 +78,7 @@ if ("desk" %in% arguments) {
   shoot(page, "app-desk.png")
   press(page, "#keep")
   until(function() !busy(page) && state_of(page, "pn") == "placed", "pn", 120)
-  press(page, "#done")
+  press_done(page)
   until(function() look(page, "!!document.getElementById('said')"), "the app again", 300)
   cat(text("said"), "\n")
   steps <- rbind(steps, step("step_beside", "beside the scans: done"))

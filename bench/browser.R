@@ -108,8 +108,15 @@ shoot <- function(page, name) {
 }
 busy <- function(page) look(page, "document.documentElement.classList.contains('shiny-busy')")
 
-finish <- function(page, served, button = "#done") {
+# "Done" asks where landmarks are missing.
+press_done <- function(page, button = "#done") {
   press(page, button)
+  asked <- sprintf("(document.querySelector('%s') || {}).textContent", button)
+  if (isTRUE(grepl("?", look(page, asked), fixed = TRUE))) press(page, button)
+}
+
+finish <- function(page, served, button = "#done") {
+  press_done(page, button)
   until(function() file.exists(served$result), "the specimen")
   page$close()
   readRDS(served$result)

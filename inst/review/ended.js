@@ -3,7 +3,8 @@ $(document).on("shiny:disconnected", function () {
   "use strict";
   var note = document.createElement("div"), again = window.location.search.indexOf("app=1") >= 0;
   note.id = "ended";
-  note.textContent = again ? "The next page comes at once." : "This page has ended: it can be closed.";
+  var page = document.querySelector("[data-kept]"), kept = page ? " " + page.getAttribute("data-kept") : "";
+  note.textContent = again ? "The next page comes at once." : "This page has ended: it can be closed." + kept;
   document.body.appendChild(note);
   if (!again) return;
   var left = 120, waiting = setInterval(function () {
@@ -12,4 +13,9 @@ $(document).on("shiny:disconnected", function () {
       if (answer.ok) { clearInterval(waiting); window.location.reload(); }
     }).catch(function () {});
   }, 1000);
+});
+// A page that is left for another address in its tab ends as a closed one does.
+window.addEventListener("pagehide", function () {
+  "use strict";
+  if (window.Shiny && Shiny.shinyapp && Shiny.shinyapp.$socket) Shiny.shinyapp.$socket.close();
 });

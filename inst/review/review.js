@@ -158,6 +158,21 @@
     else send("curve", row.getAttribute("data-curve"));
   });
 
+  // "Done" asks where landmarks are missing: it is pressed once more, anything else takes the question back.
+  var asked = null;
+  document.addEventListener("click", function (event) {
+    var done = event.target.closest("#done"), left = document.querySelectorAll(".row.landmark.missing").length;
+    if (asked) {
+      asked.button.textContent = asked.label;
+      asked = null;
+    } else if (done && left) {
+      asked = { button: done, label: done.textContent };
+      done.textContent = left + " to place: end?";
+      event.stopImmediatePropagation();
+      event.preventDefault();
+    }
+  }, true);
+
   // Keys press the buttons of the page, or go along the list.
   var keys = { Enter: "keep", Delete: "absent", Backspace: "absent", s: "snap", u: "undo", r: "redo", n: "following", p: "previous" };
   document.addEventListener("keydown", function (event) {

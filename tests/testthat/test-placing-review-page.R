@@ -101,3 +101,32 @@ test_that("the page says who is chosen, where it belongs, what waits, sides exch
   swapped <- begin_review(face, face_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
   expect_match(as.character(chosen_html(swapped)), "Left and right look mirrored")
 })
+
+test_that("absent ears: the page says how many curves and surface points they cost", {
+  skip_if_not_installed("shiny")
+  ears <- c("tL", "tR", "oiL", "oiR")
+  at <- humface_landmarks()[, 1:3]
+  at[ears, ] <- NA
+  face <- specimen(humface_scan(), at, id = "humface")
+  review <- begin_review(face, face_scheme(), 0.5, ridge_settings(error = FALSE), 0.2, 1)
+  review$state[ears] <- "absent"
+  # 672 of a measured face without ears are missing, tests of fit_shape() aside
+  expect_match(done_words(review), "10 curves and 672 of 922 surface points cannot be measured")
+  html <- as.character(list_html(review))
+  expect_match(html, "unseen[^>]*title=\"there is no line")
+  # In plain words where the definition is easily misread; others as the scheme has them
+  expect_match(as.character(chosen_html(select_landmark(review, "acR"))), "where the wing of the")
+  expect_no_match(as.character(chosen_html(select_landmark(review, "pn"))), "from the side")
+})
+
+test_that("the page says at its end where the work is, and what the colours of lines mean", {
+  skip_if_not_installed("shiny")
+  dir <- tempfile("desk")
+  expect_match(as.character(review_page("a")), "data-kept=\"The landmarks and curves are the value")
+  expect_match(desk_kept(dir), basename(dir), fixed = TRUE)
+  expect_no_match(desk_kept(NULL), "folder")
+  for (kind in c("ridge", "valley", "plane")) {
+    expect_match(as.character(line_colours()), paste0("background:", kind_colours[[kind]]),
+                 fixed = TRUE)
+  }
+})

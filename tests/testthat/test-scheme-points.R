@@ -60,3 +60,19 @@ test_that("the end that is cut off is not its landmark", {
   rib <- points$place[points$part == "midrib"]
   expect_equal(rib[c(1, 6)], c("curves|midrib|1", "landmarks|tip"))
 })
+
+test_that("surface points that go with a landmark are those that fit_shape() leaves out", {
+  expect_equal(surface_without(face_scheme(), character(), character()), 0)
+  specimen <- quad_specimen()
+  for (gone in c("d", "b")) {
+    at <- specimen$landmarks
+    at[gone, ] <- NA
+    bare <- specimen(specimen$mesh, at, outward = "keep")
+    shape <- suppressWarnings(fit_shape(bare, quad_scheme(), progress = FALSE))
+    own <- shape$scheme$curves
+    lost <- sum(shape$points$level == "surface" & is.na(shape$points$x))
+    expect_gt(lost, 0)
+    cut <- own$curve[own$from == gone | own$to == gone]
+    expect_equal(surface_without(shape$scheme, cut, gone), lost)
+  }
+})

@@ -14,6 +14,9 @@ test_that("a shape's own curves, given, are its curves again, and the patches be
   expect_equal(coords(given, "curves"), coords(found, "curves"), tolerance = 1e-9)
   expect_on_mesh(given$points, quad_specimen()$mesh)
   expect_match(given$status$reason[given$status$level == "curves"],
+               "as given: points on the mesh")
+  off <- lapply(curves_of(found), `*`, 1.0001)
+  expect_match(quad_shape(curves = off)$status$reason[given$status$level == "curves"],
                "as given: points up to .* from the mesh")
 })
 
