@@ -81,13 +81,15 @@ with_knots <- function(review, knots, action) {
 
 #' The line through knots, and the landmarks at its ends that there are
 #'
-#' @return List: `knots`; `path` (`mesh_path`; NULL as long as there is none); `snapped`; `problem`.
+#' @return List: `knots`; `path` (`mesh_path`; NULL as long as there is none); `snapped`; `problem`;
+#'   `kind` of the curve.
 #' @noRd
 joined_line <- function(review, name, knots) {
   row <- curve_row(review, name)
   scan <- drawing_scan(review)
   stops <- line_stops(review, row, knots)
-  line <- list(knots = knots, path = NULL, snapped = FALSE, problem = NA_character_)
+  line <- list(knots = knots, path = NULL, snapped = FALSE, problem = NA_character_,
+               kind = row$kind)
   if (nrow(stops) < 2) return(line)
   joined <- join_knots(stops, scan)
   line$path <- joined$path
@@ -259,7 +261,9 @@ line_words <- function(name, line) {
   length <- attr(line$path, "length")
   paste0(name, ": ", amount(nrow(line$knots), "point"),
          if (!is.null(length)) sprintf(", %.4g long", length),
-         if (line$snapped) ", snapped to the ridge",
+         if (line$snapped) {
+           paste(", snapped to the", if (identical(line$kind, "valley")) "valley" else "ridge")
+         },
          if (line$snapped && !is.na(c(line$doubt, NA)[1])) "; look at it: undo if it is worse",
          if (!is.na(line$problem)) paste0("; ", line$problem))
 }

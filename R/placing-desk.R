@@ -53,7 +53,8 @@
 #'     have a record; with several observers their names are "specimen observer".
 #'
 #'   `as.data.frame()` gives `marks`. `as.array()` gives a k x 3 x n array of the measurements, as
-#'   geomorph takes it; names of the third dimension are "specimen", or "specimen observer" with
+#'   geomorph takes it. Geomorph refuses missing landmarks: `A[rowSums(is.na(A)) == 0, , ]` leaves
+#'   them out. Names of the third dimension are "specimen", or "specimen observer" with
 #'   several observers.
 #' @section Errors: of class `crestline_error`: an argument is wrong, or the package shiny is not
 #'   installed. Of class `crestline_desk_error`: a record is damaged, or of another mesh.

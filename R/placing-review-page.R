@@ -58,7 +58,7 @@ line_colours <- function() {
   }
   shiny::tags$p(id = "lines", class = "help", one(kind_colours[["ridge"]], "ridge"),
                 one(kind_colours[["valley"]], "valley"), one(kind_colours[["plane"]], "plane cut"),
-                one(review_colours()$selected, "chosen"), "; thick: drawn by hand")
+                one(review_colours()$selected, "chosen; thick: drawn"))
 }
 
 review_buttons <- function(button, cancel) {

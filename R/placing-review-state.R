@@ -51,8 +51,8 @@ with_plain_words <- function(where) {
       "corners of the eyes"
     ),
     "most lateral point of the curved base line of the nasal ala" = paste(
-      "where the wing of the nose is widest, in its groove to the cheek: not on the outline that",
-      "the front view shows"
+      "where the wing of the nose is widest: in its groove to the cheek, not on the outline from",
+      "the front"
     )
   )
   more <- plain[where]

@@ -66,6 +66,8 @@ test_that("snapped to the ridge a line lies on the known ridge, beside which it 
   expect_lt(max(off_truth(snapped, review$specimen)), 0.01)
   expect_true(after$drawn$crest$snapped)
   expect_match(after$said, "snapped to the ridge")
+  expect_match(line_words("crest", replace(after$drawn$crest, "kind", "valley")),
+               "snapped to the valley")
   expect_match(attr(snapped, "drawn"), "^drawn by hand, snapped \\(AB, 20")
   expect_on_mesh(after$drawn$crest$path, review$specimen$mesh)
   expect_identical(undo_review(after)$drawn, review$drawn)
