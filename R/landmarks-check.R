@@ -254,3 +254,16 @@ side_pairs <- function(names) {
   right <- sub("L$", "R", left)
   data.frame(left = left, right = right)[right %in% names, ]
 }
+
+#' The report of a specimen whose missing landmarks are others now
+#'
+#' @param landmarks k x 3, NA where one is missing.
+#' @noRd
+report_of_missing <- function(report, landmarks) {
+  row <- which(report$check == "landmarks missing")
+  missing <- rownames(landmarks)[is.na(landmarks[, 1])]
+  if (length(row) != 1 || report$count[row] == length(missing)) return(report)
+  report[row, ] <- report_row("landmarks missing", length(missing),
+                              paste("kept as missing:", shorten(missing)))
+  report
+}

@@ -92,14 +92,8 @@ reviewed_specimen <- function(review) {
   drawn <- drawn_points(review)
   specimen <- review$specimen
   # What is missing now, not when it was read
-  row <- which(specimen$report$check == "landmarks missing")
-  missing <- rownames(specimen$landmarks)[is.na(specimen$landmarks[, 1])]
-  if (length(row) == 1 && specimen$report$count[row] != length(missing)) {
-    report <- specimen$report
-    report[row, ] <- report_row("landmarks missing", length(missing),
-                                paste("kept as missing:", shorten(missing)))
-    specimen <- with_fields(specimen, report = report)
-  }
+  report <- report_of_missing(specimen$report, specimen$landmarks)
+  if (!identical(report, specimen$report)) specimen <- with_fields(specimen, report = report)
   if (length(drawn) || !is.null(specimen$drawn)) {
     return(with_fields(specimen, drawn = if (length(drawn)) drawn))
   }

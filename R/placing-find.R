@@ -220,6 +220,7 @@ with_placing <- function(scan, placing, match,
   at[rownames(kept), ] <- kept
   origin <- origin_of(scan)
   scan$landmarks <- at
+  scan$report <- report_of_missing(scan$report, at)
   scan$geometry$landmarks <- rbind(found$landmarks, kept)
   scan$geometry$located <- rbind(found$located, surface_points(scan$mesh, kept))
   scan$placing <- placing[setdiff(names(placing), face_columns)]

@@ -57,7 +57,7 @@ line_colours <- function() {
     list(shiny::tags$span(class = "dot", style = paste0("background:", colour)), ...)
   }
   shiny::tags$p(id = "lines", class = "help", one(kind_colours[["ridge"]], "ridge"),
-                one(kind_colours[["valley"]], "valley"), one(kind_colours[["plane"]], "plane cut"),
+                one(kind_colours[["valley"]], "valley"), one(kind_colours[["plane"]], "plane"),
                 one(review_colours()$selected, "chosen; thick: drawn"))
 }
 
