@@ -311,7 +311,7 @@ done_words <- function(review) {
   }
   scheme <- review$fitting$scheme
   cut <- scheme$curves$curve[scheme$curves$from %in% absent | scheme$curves$to %in% absent]
-  cut <- setdiff(cut, names(review$drawn))
+  cut <- setdiff(cut, names(Filter(function(line) !is.null(line$path), review$drawn)))
   lost <- if (length(cut)) {
     sprintf(": %s and %d of %s cannot be measured. %s", amount(length(cut), "curve"),
             surface_without(scheme, cut, absent),

@@ -55,7 +55,7 @@ with_plain_words <- function(where) {
       "the front"
     )
   )
-  more <- plain[where]
+  more <- unname(plain[where])
   ifelse(is.na(more), where, paste0(where, " (", more, ")"))
 }
 

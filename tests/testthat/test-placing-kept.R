@@ -11,9 +11,13 @@ inner_error <- function(face, names) {
 
 test_that("landmarks that a scan has are kept, and the rest are found no worse", {
   four <- c("pn", "exL", "exR", "gn")
-  given <- kept_of(four)
+  at <- humface_landmarks()
+  at[ear_names, ] <- NA  # not on this scan
+  given <- kept_of(c(four, ear_names), at)
   face <- find_landmarks(given, settings = quick_settings())
   expect_identical(face$landmarks[four, ], given$landmarks[four, ])
+  expect_equal(report_count(given, "landmarks missing"), 4)
+  expect_equal(report_count(face, "landmarks missing"), 0)
   state <- stats::setNames(face$placing$state, face$placing$landmark)
   expect_equal(unname(state[four]), rep("placed", 4))
   expect_true(all(is.na(face$placing$confidence[state == "placed"])))
