@@ -311,7 +311,7 @@ given_fits <- function(scan, curves) {
 #'
 #' @param off Greatest distance. @param rounding Of co-ordinates, as a share of their size.
 #' @noRd
-given_words <- function(off, scan, rounding = 1e-12) {
+given_reason <- function(off, scan, rounding = 1e-12) {
   size <- max(abs(scan$specimen$mesh$vb[1:3, ]))
   if (off <= rounding * size) return("as given: points on the mesh")
   sprintf("as given: points up to %.2g from the mesh", off)
@@ -342,7 +342,7 @@ given_fit <- function(row, xyz, scan, tolerance) {
   }
   points <- if (own) data.frame(knots, s = joined$s) else resample_path(scan, joined$path, row$n)
   points[seq_len(joined$first - 1), ] <- NA
-  said <- given_words(max(off[joined$first:nrow(xyz)]), scan)
+  said <- given_reason(max(off[joined$first:nrow(xyz)]), scan)
   if (joined$first > 1) {
     said <- sprintf("%s; it begins at point %d of %d: %s", said, joined$first, row$n,
                     joined$problem)
@@ -388,7 +388,7 @@ given_loop <- function(row, xyz, scan, tolerance) {
   } else spaced_points(scan, loop, row$n)
   new_record(points = cbind(placed[c(mesh_columns, "s")], se = NA_real_), path = loop,
              length = attr(loop, "length"),
-             reason = given_words(max(off), scan))
+             reason = given_reason(max(off), scan))
 }
 
 #' A closed path that begins where it is nearest to the landmark of a scheme's curve, and runs as

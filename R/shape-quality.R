@@ -386,29 +386,13 @@ print.shape_quality <- function(x, most = 10, ...) {
     counts <- counts[order(-counts$red, -counts$amber), ]
     cat("<shape_quality> ", amount(nrow(counts), "specimen"), ", ", amount(nrow(x), "part"), ": ",
         paste(table(x$grade), grades, collapse = ", "), "\n", sep = "")
-    found <- attr(x, "found")
-    if (length(found)) {
-      cat(strwrap(sprintf("landmarks found by the template, not placed by hand, of %s: %s",
-                          amount(length(found), "specimen"),
-                          shorten(found, most)), indent = 2, exdent = 4, width = 80), sep = "\n")
-    }
-    noise <- counts$noise_factor[!is.na(counts$noise_factor)]
-    if (length(noise)) {
-      said <- noise_text(stats::median(noise))
-      if (length(noise) > 1) {
-        said <- sprintf("%s (median; %.2g to %.2g over the specimens)", said, min(noise),
-                        max(noise))
-      }
-      cat(strwrap(said, indent = 2, exdent = 4, width = 80), sep = "\n")
+    for (note in quality_notes(x, counts, most)) {
+      cat(strwrap(note, indent = 2, exdent = 4, width = 80), sep = "\n")
     }
     if (nrow(counts) > 1) {
       shown <- utils::head(counts, most)
       cat(sprintf("  %s: %d amber, %d red\n", shown$specimen, shown$amber, shown$red), sep = "")
       if (nrow(counts) > most) cat("  and", nrow(counts) - most, "more\n")
-    }
-    if (nrow(counts) > 1 && all(is.na(x$z))) {
-      cat(strwrap(paste("lengths of curves are not compared: too few other specimens (`others` of",
-                        "quality_limits())"), indent = 2, exdent = 4, width = 80), sep = "\n")
     }
     lines <- worst_lines(x, nrow(counts) > 1)
     for (line in utils::head(lines, most)) {
@@ -419,6 +403,25 @@ print.shape_quality <- function(x, most = 10, ...) {
     }
     invisible(x)
   })
+}
+
+#' What holds of all parts: whose landmarks were found, the noise, what could not be compared
+#' @noRd
+quality_notes <- function(x, counts, most) {
+  found <- attr(x, "found")
+  noise <- counts$noise_factor[!is.na(counts$noise_factor)]
+  c(if (length(found)) {
+      sprintf("landmarks found by the template, not placed by hand, of %s: %s",
+              amount(length(found), "specimen"), shorten(found, most))
+    },
+    if (length(noise) == 1) noise_text(noise),
+    if (length(noise) > 1) {
+      sprintf("%s (median; %.2g to %.2g over the specimens)", noise_text(stats::median(noise)),
+              min(noise), max(noise))
+    },
+    if (nrow(counts) > 1 && all(is.na(x$z))) {
+      "lengths of curves are not compared: too few other specimens (`others` of quality_limits())"
+    })
 }
 
 #' Rows of a table of quality() that were chosen from it: each with its grade and the reason
