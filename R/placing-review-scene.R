@@ -4,7 +4,7 @@
 #' [plot.shape()]
 #' @noRd
 review_colours <- function() {
-  list(state = c(found = "#1B9E77", doubtful = "#C8102E", predicted = "#3060C0", placed = "#7B2D9B",
+  list(state = c(found = "#1B9E77", doubtful = "#C8102E", predicted = "#3060C0", placed = "#D9A400",
                  given = "#202020"),
        selected = "#E08A00", curve = kind_colours)
 }

@@ -12,7 +12,7 @@
 #' `review_landmarks()` begins with the landmarks of the specimen. Landmarks in which
 #' [find_landmarks()] has little confidence are red. They are selected one after the other: move
 #' each, confirm it, or mark it as not on this scan. Found landmarks are green, predicted ones blue,
-#' placed ones violet, and the chosen one is orange. `place_landmarks()` begins without landmarks.
+#' placed ones yellow, and the chosen one is orange. `place_landmarks()` begins without landmarks.
 #' It names and describes the next landmark of the scheme. Names that end in L belong to the
 #' subject's own left. Use `review_landmarks()` to continue with a specimen that has some landmarks.
 #'
