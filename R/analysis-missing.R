@@ -115,11 +115,18 @@ estimated <- function(given, gap, tolerance = 1e-6, rounds = 50) {
   for (round in seq_len(rounds)) {
     given$coords <- with_spline_places(given$coords, mean, gap)
     moved <- max(abs(given$coords - before)[rep_gap(gap, dim(before)[2])])
-    if (!is.na(moved) && moved <= tolerance * sqrt(sum(mean^2))) break
+    share <- moved / sqrt(sum(mean^2))
+    if (!is.na(share) && share <= tolerance) break
     before <- given$coords
     fit <- fit_alignment(list(coords = before, reference = mean), rep(1, nrow(mean)), 1L, tolerance,
                          rounds)
     mean <- fit$mean * mean(fit$size)
+  }
+  if (is.na(share) || share > tolerance) {
+    crestline_warn(sprintf("after %d rounds estimated points still move, by %.2g of the size.",
+                           rounds, share),
+                   "Leave out specimens that lack many points, or give `missing = \"drop\"`.",
+                   stage = "align", class = "crestline_not_converged")
   }
   if (is.null(given$reference)) given$reference <- mean
   given

@@ -227,6 +227,8 @@ grow_fitting <- function(before, after, progress = function(n) function() NULL) 
     !is.na(at) && identical(lapply(rows[i, ], identity),
                             lapply(before$scheme$curves[at, names(rows)], identity))
   }, NA)
+  # Whether a track is of other objects depends on all curves.
+  same <- same & !rows$curve %in% after$scheme$tracks$curve
   after$whole[same] <- before$whole[rows$curve[same]]
   after$fits <- by_own_tracks(after$scan, progress(sum(!same)), function(scan, tick) {
     after$whole <<- fit_whole_curves(after$whole, !same, scan, tick)

@@ -220,3 +220,14 @@ test_that("points that every specimen lacks are left out, as if they had never b
   expect_setequal(both$missing$action, c("dropped", "estimated"))
   expect_output(print(both), "missing and dropped.*missing and estimated")
 })
+
+test_that("estimated points that still move after all rounds are said", {
+  set.seed(4)
+  mean <- matrix(rnorm(24), 8)
+  given <- list(coords = replicate(6, mean + rnorm(24, sd = 0.1)))
+  gap <- matrix(FALSE, 8, 6, dimnames = list(NULL, letters[1:6]))
+  gap[cbind(c(1, 2, 5), 1:3)] <- TRUE
+  given$coords[1, , 1] <- given$coords[2, , 2] <- given$coords[5, , 3] <- NA
+  expect_warning(estimated(given, gap, rounds = 1), class = "crestline_not_converged")
+  expect_warning(estimated(given, gap), NA)
+})
