@@ -3,18 +3,19 @@
 #' The norm of a set of points
 #'
 #' Co-ordinates are smoothed by age, each column apart. The standardised deviations u have the
-#' correlation V diag(values) V' + I_3 x K + P (large I) P': components V, a kernel of distances K,
-#' and pose and scale P, which are left free.
+#' correlation V diag(values) V' + K + P (large I) P': components V, a kernel K of distances for
+#' each co-ordinate, and pose and scale P, which are left free.
 #'
 #' @param y n x 3k: co-ordinates, all x first.
-#' @param points k x 3: the reference; `normal`: k x 3.
+#' @param points k x 3: the reference, whose plane of symmetry is x = 0; `normal`: k x 3.
 #' @param people List: `age`, `group`.
 #' @param plan List: `size` (of [smooth_columns()]), `components`, `ranges`, `bins`.
+#' @param mirrored Whether the points have a plane of symmetry, so that one side tells of the other.
 #' @return List: `points`, `normal`, `columns`, `along` (norm of the part along the normal), `sd`
 #'   (3k: mean spread), `vectors` (3k x K), `values` (K), `kernel` (nugget, and a weight a range),
-#'   `ranges`.
+#'   `mirrored` (a weight a range: the same with the other side, 0 if not `mirrored`), `ranges`.
 #' @noRd
-fit_field <- function(y, points, normal, people, plan) {
+fit_field <- function(y, points, normal, people, plan, mirrored) {
   unit <- plan$unit
   columns <- smooth_columns(y, people$age, people$group, plan$size, rep(unit, ncol(y)))
   expected <- expected_columns(columns, people$age, people$group)
@@ -25,10 +26,12 @@ fit_field <- function(y, points, normal, people, plan) {
   rm(expected)
   parts <- leading_parts(u, plan$components)
   left <- u - tcrossprod(u %*% parts$vectors, parts$vectors)
-  kernel <- fit_kernel(left, points, plan) * nrow(u) / max(1, nrow(u) - plan$components - 10)
+  freedom <- nrow(u) / max(1, nrow(u) - plan$components - 10)
+  kernel <- lapply(fit_kernel(left, points, plan, mirrored), `*`, freedom)
   list(points = points, normal = normal, columns = columns, along = along,
        sd = rounded_to(sd, 1e-4), vectors = rounded_to(parts$vectors, 1e-4),
-       values = signif(parts$values, 6), kernel = signif(kernel, 6), ranges = plan$ranges)
+       values = signif(parts$values, 6), kernel = signif(kernel$own, 6),
+       mirrored = signif(kernel$mirrored, 6), ranges = plan$ranges)
 }
 
 #' n x k: how far along the normals points are from the reference
@@ -52,55 +55,6 @@ leading_parts <- function(u, components) {
   list(vectors = v * rep(sign(largest), each = nrow(v)), values = found$d^2 / nrow(u))
 }
 
-#' Weights of the nugget and of Gaussian kernels by the covariances at some distances
-#'
-#' @param left n x 3k: what the components leave of u.
-#' @param plan List: `ranges`, `bins` (edges of the distances), `nugget` (its least weight).
-#' @noRd
-fit_kernel <- function(left, points, plan) {
-  k <- nrow(points)
-  distance <- as.matrix(stats::dist(points))
-  upper <- which(upper.tri(distance, TRUE))
-  pairs <- Reduce(`+`, lapply(1:3, function(d) {
-    crossprod(left[, (d - 1) * k + seq_len(k), drop = FALSE])[upper]
-  })) / (3 * nrow(left))
-  bin <- cut(distance[upper], plan$bins, labels = FALSE, include.lowest = TRUE)
-  count <- tabulate(bin, length(plan$bins) - 1)
-  mean_of <- function(value) as.vector(tapply(value, factor(bin, seq_along(count)), mean))
-  there <- count > 0
-  at <- mean_of(distance[upper])[there]
-  covariance <- pmax(mean_of(pairs)[there], 0)
-  design <- cbind(as.numeric(at < plan$bins[2]),
-                  vapply(plan$ranges, function(range) exp(-at^2 / (2 * range^2)), at))
-  weight <- sqrt(pmin(count[there], 5000))
-  found <- non_negative(design * weight, covariance * weight)
-  replace(found, 1, max(found[1], plan$nugget))
-}
-
-#' Least squares with coefficients of at least 0: the best of all sets of columns
-#' @noRd
-non_negative <- function(x, y) {
-  best <- list(left = sum(y^2), coef = numeric(ncol(x)))
-  for (set in seq_len(2^ncol(x) - 1)) {
-    chosen <- which(bitwAnd(set, 2^(seq_len(ncol(x)) - 1)) > 0)
-    coef <- qr.coef(qr(x[, chosen, drop = FALSE]), y)
-    if (anyNA(coef) || any(coef < 0)) next
-    left <- sum((y - x[, chosen, drop = FALSE] %*% coef)^2)
-    if (left < best$left) best <- list(left = left, coef = replace(numeric(ncol(x)), chosen, coef))
-  }
-  best$coef
-}
-
-#' The kernel's correlation between points, without the nugget
-#' @noRd
-kernel_between <- function(field, rows = seq_len(nrow(field$points)), columns = rows) {
-  a <- field$points[rows, , drop = FALSE]
-  b <- field$points[columns, , drop = FALSE]
-  squares <- pmax(0, outer(rowSums(a^2), rowSums(b^2), `+`) - 2 * tcrossprod(a, b))
-  Reduce(`+`, Map(function(weight, range) weight * exp(-squares / (2 * range^2)),
-                  field$kernel[-1], field$ranges))
-}
-
 #' Pose and scale of the reference over the mean spread, 3k x 7, orthonormal
 #' @noRd
 pose_directions <- function(field) {
@@ -118,30 +72,35 @@ pose_directions <- function(field) {
 #'
 #' @param extra Variance added to each point (3k): large where a point is left out.
 #' @param free Variance of pose and scale.
-#' @return List: `solve_kernel` (a function), `root` (Cholesky's, of the kernel for x),
-#'   `kernel_diagonal` (of the kernel's inverse), `basis` (3k x (K + 7)), `inner` (the inverse of
-#'   its matrix), `solved` (the kernel's inverse times the basis).
+#' @return List: `solve_kernel` (a function), `roots` (Cholesky's, of the kernel of each
+#'   co-ordinate), `kernel_diagonal` (of the kernel's inverse), `basis` (3k x (K + 7)), `inner` (the
+#'   inverse of its matrix), `solved` (the kernel's inverse times the basis).
 #' @noRd
 invert_field <- function(field, extra = 0, free = 1e6) {
   k <- nrow(field$points)
-  extra <- rep_len(extra, 3 * k)
-  kernel <- kernel_between(field)
-  own <- lapply(1:3, function(d) field$kernel[1] + 1e-6 + extra[(d - 1) * k + seq_len(k)])
-  made <- lapply(unique(own), function(variance) chol(kernel + diag(variance)))
-  at <- match(own, unique(own))
-  roots <- made[at]
-  diagonal <- unlist(lapply(made, function(root) diag(chol2inv(root)))[at])
+  extra <- matrix(extra, k, 3)
+  kernels <- axis_kernels(field)
+  roots <- list()
+  diagonal <- matrix(0, k, 3)
+  for (axis in 1:3) {
+    # Most often the next axis has the same matrix.
+    same <- axis > 1 && identical(extra[, axis], extra[, axis - 1]) &&
+      identical(kernels[[axis]], kernels[[axis - 1]])
+    roots[[axis]] <- if (same) roots[[axis - 1]] else
+      chol(kernels[[axis]] + diag(extra[, axis] + 1e-6))
+    diagonal[, axis] <- if (same) diagonal[, axis - 1] else diag(chol2inv(roots[[axis]]))
+  }
   solve_kernel <- function(x) {
-    do.call(rbind, lapply(1:3, function(d) {
-      own <- x[(d - 1) * k + seq_len(k), , drop = FALSE]
-      backsolve(roots[[d]], backsolve(roots[[d]], own, transpose = TRUE))
+    do.call(rbind, lapply(1:3, function(axis) {
+      own <- x[(axis - 1) * k + seq_len(k), , drop = FALSE]
+      backsolve(roots[[axis]], backsolve(roots[[axis]], own, transpose = TRUE))
     }))
   }
   basis <- cbind(field$vectors, pose_directions(field))
   solved <- solve_kernel(basis)
   inner <- diag(c(1 / field$values, rep(1 / free, 7)), ncol(basis)) + crossprod(basis, solved)
-  list(solve_kernel = solve_kernel, root = roots[[1]], kernel_diagonal = diagonal, basis = basis,
-       solved = solved, inner = chol2inv(chol(inner)))
+  list(solve_kernel = solve_kernel, roots = roots, kernel_diagonal = as.vector(diagonal),
+       basis = basis, solved = solved, inner = chol2inv(chol(inner)))
 }
 
 apply_inverse <- function(inverse, x) {
@@ -181,7 +140,8 @@ scan_scale <- function(field, radii, inverse = invert_field(field)) {
   solved <- Reduce(`+`, lapply(1:3, function(d) {
     normal[, d] * inverse$solved[(d - 1) * k + seq_len(k), , drop = FALSE]
   }))
-  m <- chol2inv(inverse$root) * tcrossprod(normal) - solved %*% inverse$inner %*% t(solved)
+  m <- -solved %*% inverse$inner %*% t(solved)
+  for (axis in 1:3) m <- m + chol2inv(inverse$roots[[axis]]) * tcrossprod(normal[, axis])
   distance <- as.matrix(stats::dist(field$points))
   vapply(radii, function(radius) {
     height <- bump(distance, radius)

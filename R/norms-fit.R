@@ -4,8 +4,8 @@
 #'
 #' Lengths are in the unit of the meshes; the defaults are for faces in mm.
 #'
-#' @param components Number of components. `NULL`: a fiftieth of the number of faces, at least 5 and
-#'   at most 20.
+#' @param components Number of components. `NULL`: a hundredth of the number of faces, at least 5
+#'   and at most 20. More of them find no more lesions, and tell more of the people in the sample.
 #' @param radii Radii of the lesions that the scan of [assess()] looks for.
 #' @param ranges Ranges of the Gaussian kernels for what the components leave.
 #' @param bins Edges of the distances between points by which the kernels are weighted. The first
@@ -76,7 +76,9 @@ print.norm_settings <- function(x, ...) {
 #' mean size) alone, by least squares with scale. All means and spreads are penalised splines of age
 #' on one basis. The smoothing is chosen for each by restricted maximum likelihood. Deviations of
 #' all points together are described by few components and by a kernel of the distance between
-#' points. Limits come from faces that were held out in turn, in parts alike in age and sex.
+#' points. Where the scheme has left-right pairs, the kernel also has the distance between a point
+#' and the mirror image of another, so that each side of a face tells what to expect of the other.
+#' Limits come from faces that were held out in turn, in parts alike in age and sex.
 #'
 #' @section What a norm must not be used for:
 #' A norm describes the people and the scanner that it was made of. It does not describe other
@@ -111,8 +113,8 @@ print.norm_settings <- function(x, ...) {
 #' @param settings [norm_settings()].
 #' @template progress
 #' @return Object of class `shape_norms`, a list:
-#'   * `points`: data frame of the reference: `point`, `x`, `y`, `z` (in the unit of the meshes),
-#'     normal `nx`, `ny`, `nz`, `partner`, `se_norm` (standard error of the sample's points),
+#'   * `points`: data frame of the reference: `point`, `x`, `y`, `z` (in the unit of the meshes;
+#'     with left-right pairs its plane of symmetry is x = 0), normal `nx`, `ny`, `nz`, `partner`, `se_norm` (standard error of the sample's points),
 #'     `r_xy`, `r_xz`, `r_yz` (correlations of a point's standardised co-ordinates);
 #'   * `counts`: data frame with the number of faces by sex and year of age; `ages`: range of ages
 #'     by sex; `n`;
@@ -200,7 +202,7 @@ norm_plan <- function(settings, people) {
   list(size = list(k = 10, k_spread = 6, range = range),
        size_values = list(k = or(settings$k, if (large) 20 else 10),
                           k_spread = or(settings$k_spread, if (large) 10 else 6), range = range),
-       components = min(or(settings$components, min(20, max(5, n %/% 50))), n - 12),
+       components = min(or(settings$components, min(20, max(5, n %/% 100))), n - 12),
        folds = min(or(settings$folds, if (n < 500) 20 else if (n < 1000) 10 else 5),
                    min(table(people$group)) %/% 2),
        radii = settings$radii, ranges = settings$ranges, bins = settings$bins,

@@ -57,7 +57,7 @@ lesion_disc <- function(distance, radius, reach = 1.5, most = 0.4) {
 healing_table <- function(field, u, radii, centres = 12, faces = 300) {
   rows <- unique(round(seq(1, nrow(u), length.out = min(faces, nrow(u)))))
   inverse <- invert_field(field)
-  inner <- chol2inv(inverse$root)
+  inner <- lapply(inverse$roots, chol2inv)
   solved <- apply_inverse(inverse, t(u[rows, ]))
   distance <- as.matrix(stats::dist(field$points))
   at <- which.min(rowSums(distance))
@@ -80,7 +80,7 @@ healing_table <- function(field, u, radii, centres = 12, faces = 300) {
 #' Of the inverse Q of the correlation and the disc's part of it: \eqn{u_I - E(u_I | rest) = Q_II^-1
 #' (Q u)_I}, whose covariance is Q_II^-1.
 #'
-#' @param inner Inverse of the kernel's matrix, k x k.
+#' @param inner Inverses of the kernels of the three co-ordinates, each k x k.
 #' @param solved Q u, 3k x n.
 #' @noRd
 disc_squares <- function(field, inverse, inner, solved, disc) {
@@ -88,8 +88,11 @@ disc_squares <- function(field, inverse, inner, solved, disc) {
   m <- length(disc)
   rows <- c(disc, k + disc, 2 * k + disc)
   part <- inverse$solved[rows, , drop = FALSE]
-  own <- kronecker(diag(3), inner[disc, disc, drop = FALSE]) -
-    part %*% inverse$inner %*% t(part)
+  own <- -part %*% inverse$inner %*% t(part)
+  for (axis in 1:3) {
+    at <- (axis - 1) * m + seq_len(m)
+    own[at, at] <- own[at, at] + inner[[axis]][disc, disc]
+  }
   covariance <- chol2inv(chol(own))
   missed <- covariance %*% solved[rows, , drop = FALSE]
   along <- as.vector(field$normal[disc, ]) * field$sd[rows]

@@ -258,11 +258,12 @@ check_shared <- function(norms, fewer = NULL, least = 10, ratio = 0.95, auc = 0.
 validate_shape_norms <- function(x) {
   parts <- c("points", "n", "ages", "counts", "table", "values", "surface", "limits", "settings",
              "scheme")
-  # Norms of former versions have no healing and no correlations.
+  # Norms of former versions have no healing, no correlations, and no kernel of the other side.
   ok <- is.list(x) && all(parts %in% names(x)) && is.data.frame(x$points) &&
     is.data.frame(x$surface$healing) && all(c("r_xy", "r_xz", "r_yz") %in% names(x$points)) &&
     is.data.frame(x$table) && is.environment(x$cache) &&
     length(x$surface$sd) == 3 * nrow(x$points) &&
+    length(x$surface$mirrored) == length(x$surface$ranges) &&
     nrow(x$table) == length(x$values$groups[[1]]$lambda)
   if (!isTRUE(ok)) {
     crestline_abort("the norm is damaged, or of a former version.",

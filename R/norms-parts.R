@@ -12,10 +12,12 @@ fit_parts <- function(data, rows, plan) {
   people <- list(age = data$people$age[rows], group = data$people$group[rows])
   points <- as.matrix(data$points[c("x", "y", "z")])
   normal <- as.matrix(data$points[c("nx", "ny", "nz")])
-  surface <- fit_field(data$y[rows, , drop = FALSE], points, normal, people, plan)
   side <- data$points$side
+  surface <- fit_field(data$y[rows, , drop = FALSE], points, normal, people, plan,
+                       mirrored = any(side))
   asymmetry <- if (!is.null(data$off)) {
-    fit_field(data$off[rows, , drop = FALSE], points[side, ], normal[side, ], people, plan)
+    fit_field(data$off[rows, , drop = FALSE], points[side, ], normal[side, ], people, plan,
+              mirrored = FALSE)
   }
   scores <- field_scores(surface, data$y[rows, , drop = FALSE], people$age, people$group)
   values <- cbind(data$values[rows, , drop = FALSE], scores)

@@ -90,7 +90,7 @@ norms_from_tables <- function(header, tables) {
          columns = splines_from_tables(name, size, unit, off, tables, sexes),
          along = splines_from_tables(paste0(name, "-along"), size, unit, 0, tables, sexes),
          sd = unname(loadings[, 1]) * 1e-4, vectors = unname(loadings[, -1, drop = FALSE]) * 1e-4,
-         values = own$values, kernel = own$kernel, ranges = own$ranges,
+         values = own$values, kernel = own$kernel, mirrored = own$mirrored, ranges = own$ranges,
          scan = list(radii = own$radii, s = unname(as.matrix(tables[[paste0("scan-", name)]])),
                      by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
          rough = own$rough, healing = if (name == "surface") tables$healing)
@@ -157,5 +157,6 @@ check_norm_numbers <- function(norms) {
     if (!all(is.finite(positive) & positive > 0)) {
       refuse_norm(paste0("components-", name, ".csv"), "a spread is not above 0")
     }
+    if (!is_kernel(field)) refuse_norm("norms.json", "its kernel is none")
   }
 }

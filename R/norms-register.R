@@ -28,7 +28,7 @@ lay_face <- function(x, reference) {
 #' @return k x 3.
 #' @noRd
 asymmetric_part <- function(x, partner) {
-  mirrored <- x[partner, , drop = FALSE] * rep(c(-1, 1, 1), each = nrow(x))
+  mirrored <- across_plane(x[partner, , drop = FALSE])
   known <- !is.na(x[, 1]) & !is.na(mirrored[, 1])
   a <- x[known, , drop = FALSE]
   b <- mirrored[known, , drop = FALSE]
@@ -52,6 +52,25 @@ norm_reference <- function(sample) {
        estimated = aligned$missing, triangles = aligned$triangles)
 }
 
+#' Points turned and moved as little as brings their plane of symmetry to x = 0
+#'
+#' @param partner Row that each point is mirrored to, NA for none.
+#' @noRd
+on_mirror_plane <- function(xyz, partner) {
+  paired <- which(!is.na(partner) & partner != seq_along(partner))
+  if (length(paired) < 4) return(xyz)
+  symmetric <- xyz - asymmetric_part(xyz, partner)
+  axis <- main_direction(symmetric[paired, ] - symmetric[partner[paired], ])
+  axis <- axis * sign(axis[which.max(abs(axis))])
+  normal <- cross_product(axis, c(1, 0, 0))
+  angle <- acos(min(axis[1], 1))
+  turn <- if (angle > 0) rotation_about(unit_vector(normal) * angle) else diag(3)
+  xyz <- xyz %*% t(turn)
+  # The asymmetric part of a face moves no mean.
+  middle <- mean(drop(symmetric[paired, ] %*% turn[1, ]))
+  xyz - rep(c(middle, 0, 0), each = nrow(xyz))
+}
+
 #' The table of a norm's points
 #' @noRd
 norm_points <- function(reference, scheme, unit) {
@@ -60,6 +79,7 @@ norm_points <- function(reference, scheme, unit) {
   own <- match(rownames(reference$xyz), name)
   at <- which(scheme$points$level == "surface")
   partner <- match(match(mirror_rows(scheme)[at], at)[own], own)
+  reference$xyz <- on_mirror_plane(reference$xyz, partner)
   normal <- point_normals(reference$xyz, reference$triangles)
   bare <- which(!is.finite(normal[, 1]))
   there <- which(is.finite(normal[, 1]))

@@ -9,9 +9,11 @@
 #' standard deviation is the exponential of half the sum for the spread.
 #'
 #' `norms.json` has `format`, `version`, `about` (name, licence, citation, population, device, and
-#' the version of crestline), `scheme`, `n`, `sexes`, `units`, `splines`, `kernel`, `limits`,
-#' `privacy`, `settings`, `tables` (the SHA-256 checksum of each), and its own `checksum`. The
-#' tables are:
+#' the version of crestline), `scheme`, `n`, `sexes`, `units`, `splines`, `surface` and `asymmetry`
+#' (of each the variances of the components as `values`, the `kernel`: nugget and a weight a range,
+#' `mirrored`: a weight a range for the distance to the mirror image of the other point, and the
+#' scan's limits), `limits`, `privacy`, `settings`, `tables` (the SHA-256 checksum of each), and its
+#' own `checksum`. The tables are:
 #' * `reference.csv`: the surface points, see `points` of [fit_norms()];
 #' * `triangles.csv`: rows of `reference.csv`;
 #' * `counts.csv`, `ages.csv`: numbers of faces and range of ages, by sex;
@@ -186,9 +188,10 @@ padded <- function(x, columns) {
 norm_header <- function(norms) {
   field <- function(one) {
     if (is.null(one)) return(NULL)
-    list(values = I(one$values), kernel = I(one$kernel), ranges = I(one$ranges), rough = one$rough,
-         radii = I(one$scan$radii), quantiles = I(one$scan$quantiles),
-         by_age = lapply(one$scan$by_age, function(x) x), age_splines = one$scan$size)
+    list(values = I(one$values), kernel = I(one$kernel), mirrored = I(one$mirrored),
+         ranges = I(one$ranges), rough = one$rough, radii = I(one$scan$radii),
+         quantiles = I(one$scan$quantiles), by_age = lapply(one$scan$by_age, function(x) x),
+         age_splines = one$scan$size)
   }
   list(format = "crestline-norms", version = norm_version(), about = norms$about,
        scheme = norms$scheme, n = norms$n, sexes = I(norms$ages$sex), names = as.list(norms$names),
@@ -199,4 +202,4 @@ norm_header <- function(norms) {
        settings = norms$settings)
 }
 
-norm_version <- function() 2L
+norm_version <- function() 3L

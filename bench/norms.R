@@ -216,7 +216,7 @@ only_z <- function(faces) {
   cohort <- simulate_cohort(n, seed = seed, settings = settings)
   scheme <- cohort$sample$template$scheme
   table <- face_measurements()
-  made <- own("norm_data")(cohort$sample, own("measurement_plan")(table, scheme), 1e-3, NULL)
+  made <- own("norm_data")(cohort$sample, own("measurement_plan")(table, scheme), 1e-3)
   made$off <- NULL
   made$people <- own("norm_people")(~ s(age, by = sex), cohort$data, names(cohort$sample))
   made$table <- table

@@ -29,3 +29,14 @@ small_patient <- function(..., seed = 5, settings = cohort_settings()) {
   simulate_cohort(1, data = data.frame(age = 10, sex = "female"), template = small_template(),
                   seed = seed, settings = settings, ...)$sample[[1]]
 }
+
+# The kernels of the three co-ordinates as one matrix.
+block_kernel <- function(field) {
+  k <- nrow(field$points)
+  whole <- matrix(0, 3 * k, 3 * k)
+  for (axis in 1:3) {
+    rows <- (axis - 1) * k + seq_len(k)
+    whole[rows, rows] <- axis_kernels(field)[[axis]] + diag(1e-6, k)
+  }
+  whole
+}

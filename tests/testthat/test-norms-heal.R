@@ -5,7 +5,7 @@ test_that("squares of what is missed are those of each face by itself", {
   u <- with_seed(3, matrix(stats::rnorm(105 * 4), 105))
   inverse <- invert_field(field)
   disc <- c(4, 5, 12, 13)
-  found <- disc_squares(field, inverse, chol2inv(inverse$root), apply_inverse(inverse, u), disc)
+  found <- disc_squares(field, inverse, lapply(inverse$roots, chol2inv), apply_inverse(inverse, u), disc)
   each <- sapply(1:4, function(i) {
     made <- given_the_rest(field, u[, i], rep(seq_len(35) %in% disc, 3))
     missed <- matrix((u[, i] - made$fit) * field$sd, ncol = 3)
@@ -18,8 +18,7 @@ test_that("squares of what is missed are those of each face by itself", {
 test_that("faces that the field describes need no wider interval, others do", {
   field <- small_norms()$surface
   pose <- pose_directions(field)
-  kernel <- kernel_between(field) + diag(field$kernel[1] + 1e-6, 35)
-  whole <- field$vectors %*% (field$values * t(field$vectors)) + kronecker(diag(3), kernel) +
+  whole <- field$vectors %*% (field$values * t(field$vectors)) + block_kernel(field) +
     tcrossprod(pose)
   u <- with_seed(5, matrix(stats::rnorm(300 * 105), 300)) %*% chol(whole)
   table <- healing_table(field, u, c(12, 30), centres = 4)

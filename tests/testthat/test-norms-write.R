@@ -52,9 +52,9 @@ test_that("damaged, foreign and newer folders are refused by name", {
   expect_crestline_error(read_norms(change("mean-surface.csv", "^1,", "2,")), "mean-surface.csv")
   expect_crestline_error(read_norms(change("norms.json", "\"n\": 120", "\"n\": 121")),
                          c("norms.json", "checksum"))
-  expect_crestline_error(read_norms(change("norms.json", "\"version\": 2", "\"version\": 9")),
+  expect_crestline_error(read_norms(change("norms.json", "\"version\": 3", "\"version\": 9")),
                          c("version 9", "Update"))
-  expect_crestline_error(read_norms(change("norms.json", "\"version\": 2", "\"version\": 1")),
+  expect_crestline_error(read_norms(change("norms.json", "\"version\": 3", "\"version\": 1")),
                          c("version 1", "Fit and write"))
   expect_crestline_error(read_norms(change("norms.json", "crestline-norms", "other")), "no norm")
   dir <- written()
@@ -80,6 +80,9 @@ test_that("numbers that no norm has are refused though the checksums fit", {
   norms <- small_norms()
   norms$surface$healing$at[1] <- 99L
   expect_crestline_error(read_norms(written(norms)), "healing.csv")
+  norms <- small_norms()
+  norms$surface$mirrored[1] <- norms$surface$kernel[2] + 0.1
+  expect_crestline_error(read_norms(written(norms)), "kernel")
   norms <- small_norms()
   norms$points$r_xy[3] <- 1.2
   expect_crestline_error(read_norms(written(norms)), c("reference.csv", "correlations"))
