@@ -8,10 +8,11 @@
 #'
 #' There are two maps. The *marginal map* compares each point with that of all faces of this age and
 #' sex. The *scan* asks whether a place fits the rest of this face: it takes what the rest makes
-#' expected there, and looks for bumps of several radii. The scan finds small lesions that the
-#' marginal map cannot see. Where it finds something, the *healed face* shows what a face with these
-#' surroundings would have there, with its standard deviation. The *asymmetry scan* compares the
-#' asymmetry of the face with that of the norm, not with zero, since the mean face is not symmetric.
+#' expected there, and looks for bumps of several radii, on one side or on both at once. Each side
+#' tells what to expect of the other. The scan finds small lesions that the marginal map cannot see.
+#' Where it finds something, the *healed face* shows what a face with these surroundings would have
+#' there, with its standard deviation. The *asymmetry scan* compares the asymmetry of the face with
+#' that of the norm, not with zero, since the mean face is not symmetric.
 #'
 #' Deviations along the surface (`tangential`, `d2`) are correspondence as much as anatomy: points
 #' of patches can be placed only so well along it. They are given for each point, and no verdict
@@ -51,8 +52,9 @@
 #'     there: 95 % of faces are below 6, with a large norm), `p_tangential`, `assessed`;
 #'   * `verdicts`: data frame with a row for each family: `family`, `statistic`, `p`, `p_holm`,
 #'     `verdict` ("real", "not distinguishable", "not assessable"), `where`;
-#'   * `findings`: data frame with a row for each disc that was healed: `point`, `radius`, `z`,
-#'     `height` and `sd` at its centre, `volume`, in the unit of the mesh;
+#'   * `findings`: data frame with a row for each disc that was healed: `point`, `radius`, `both`
+#'     (TRUE: found on both sides at once, the other side has a row of its own), `z`, `height` and
+#'     `sd` at its centre, `volume`, in the unit of the mesh;
 #'   * `healed`: k x 3 matrix, the face laid on the norm with the discs replaced;
 #'   * `chart`: data frame of the growth curves of size and measurements: `name`, `age`, `centile`,
 #'     `value`; NA at ages that are refused;
@@ -256,8 +258,9 @@ healed_discs <- function(norms, patient, healed, points) {
     own <- inside(i)
     sum(area[own] * points$healed[own])
   }, 0)
-  data.frame(point = points$point[hits$at], radius = hits$radius / patient$scale, z = hits$z,
-             height = points$healed[hits$at], sd = points$healed_sd[hits$at], volume = volume)
+  data.frame(point = points$point[hits$at], radius = hits$radius / patient$scale,
+             both = hits$both, z = hits$z, height = points$healed[hits$at],
+             sd = points$healed_sd[hits$at], volume = volume)
 }
 
 #' Verdicts by family, Holm over the families
@@ -269,19 +272,21 @@ verdict_table <- function(norms, values, points, healed, other, alpha) {
   largest <- function(x) if (all(is.na(x))) NA_real_ else max(x, na.rm = TRUE)
   at <- function(x, names) if (all(is.na(x))) NA_character_ else names[which.max(x)]
   map <- abs(points$z_map)
+  scan <- healed$scan
+  scan_at <- unique(c(scan$at, if (scan$both) norms$points$partner[scan$at]))
   p_map <- if (norms$n < norms$settings$bonferroni_below) {
     min(1, 2 * sum(!is.na(map)) * stats::pnorm(-largest(map)))
   } else tail_p(largest(map), norms$limits$map)
   rows <- data.frame(
     family = c("size", "measurements", "components", "map", "scan", "asymmetry"),
     statistic = c(z[1], largest(z[measured]), sqrt(sum(z[component]^2)), largest(map),
-                  healed$scan$largest, if (is.null(other)) NA else other$largest),
+                  scan$largest, if (is.null(other)) NA else other$largest),
     p = c(2 * stats::pnorm(-z[1]),
           if (any(measured)) tail_p(largest(z[measured]), norms$limits$measurements) else NA,
-          tail_p(sum(z[component]^2), norms$limits$components), p_map, healed$scan$p,
+          tail_p(sum(z[component]^2), norms$limits$components), p_map, scan$p,
           if (is.null(other)) NA else other$p),
     where = c(NA, at(z[measured], values$name[measured]), NA, at(map, points$point),
-              points$point[healed$scan$at],
+              paste(points$point[scan_at], collapse = " and "),
               if (is.null(other)) NA else points$point[norms$points$side][other$at])
   )
   rows$p_holm <- stats::p.adjust(rows$p, "holm")
@@ -335,8 +340,9 @@ value_words <- function(row) {
 }
 
 finding_words <- function(row) {
-  sprintf("found at %s: height %.2g +- %.2g, radius %.3g, volume %.3g (z %.2g)", row$point,
-          row$height, row$sd, row$radius, row$volume, row$z)
+  sprintf("found at %s%s: height %.2g +- %.2g, radius %.3g, volume %.3g (z %.2g)", row$point,
+          if (row$both) " (both sides)" else "", row$height, row$sd, row$radius, row$volume,
+          row$z)
 }
 
 #' @export

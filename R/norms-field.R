@@ -10,12 +10,13 @@
 #' @param points k x 3: the reference, whose plane of symmetry is x = 0; `normal`: k x 3.
 #' @param people List: `age`, `group`.
 #' @param plan List: `size` (of [smooth_columns()]), `components`, `ranges`, `bins`.
-#' @param mirrored Whether the points have a plane of symmetry, so that one side tells of the other.
+#' @param partner k: row that each point is mirrored to. NULL: no side tells of the other.
 #' @return List: `points`, `normal`, `columns`, `along` (norm of the part along the normal), `sd`
 #'   (3k: mean spread), `vectors` (3k x K), `values` (K), `kernel` (nugget, and a weight a range),
-#'   `mirrored` (a weight a range: the same with the other side, 0 if not `mirrored`), `ranges`.
+#'   `mirrored` (a weight a range: the same with the other side, 0 without `partner`), `ranges`,
+#'   `partner`.
 #' @noRd
-fit_field <- function(y, points, normal, people, plan, mirrored) {
+fit_field <- function(y, points, normal, people, plan, partner = NULL) {
   unit <- plan$unit
   columns <- smooth_columns(y, people$age, people$group, plan$size, rep(unit, ncol(y)))
   expected <- expected_columns(columns, people$age, people$group)
@@ -27,11 +28,11 @@ fit_field <- function(y, points, normal, people, plan, mirrored) {
   parts <- leading_parts(u, plan$components)
   left <- u - tcrossprod(u %*% parts$vectors, parts$vectors)
   freedom <- nrow(u) / max(1, nrow(u) - plan$components - 10)
-  kernel <- lapply(fit_kernel(left, points, plan, mirrored), `*`, freedom)
+  kernel <- lapply(fit_kernel(left, points, plan, !is.null(partner)), `*`, freedom)
   list(points = points, normal = normal, columns = columns, along = along,
        sd = rounded_to(sd, 1e-4), vectors = rounded_to(parts$vectors, 1e-4),
        values = signif(parts$values, 6), kernel = signif(kernel$own, 6),
-       mirrored = signif(kernel$mirrored, 6), ranges = plan$ranges)
+       mirrored = signif(kernel$mirrored, 6), ranges = plan$ranges, partner = partner)
 }
 
 #' n x k: how far along the normals points are from the reference
@@ -111,58 +112,6 @@ apply_inverse <- function(inverse, x) {
 
 inverse_diagonal <- function(inverse) {
   inverse$kernel_diagonal - rowSums((inverse$solved %*% inverse$inner) * inverse$solved)
-}
-
-#' Weights of the scan: a column for each centre
-#'
-#' t = w' u has variance 1 under the field, and is the best test of a bump along the normals there.
-#' @return List by radius of 3k x k matrices.
-#' @noRd
-scan_weights <- function(field, radii, inverse = invert_field(field)) {
-  distance <- as.matrix(stats::dist(field$points))
-  lapply(radii, function(radius) {
-    height <- bump(distance, radius)
-    lesion <- rbind(height * field$normal[, 1], height * field$normal[, 2],
-                    height * field$normal[, 3]) / field$sd
-    w <- apply_inverse(inverse, lesion)
-    w / rep(sqrt(pmax(colSums(w * lesion), 1e-300)), each = nrow(w))
-  })
-}
-
-#' By what the inverse's product with a bump is divided in these weights: k x radii
-#'
-#' Of the bumps B and the inverse M along the normals alone, the root of the diagonal of B'MB.
-#' @noRd
-scan_scale <- function(field, radii, inverse = invert_field(field)) {
-  k <- nrow(field$points)
-  along <- as.vector(field$normal) / field$sd
-  normal <- matrix(along, k)
-  solved <- Reduce(`+`, lapply(1:3, function(d) {
-    normal[, d] * inverse$solved[(d - 1) * k + seq_len(k), , drop = FALSE]
-  }))
-  m <- -solved %*% inverse$inner %*% t(solved)
-  for (axis in 1:3) m <- m + chol2inv(inverse$roots[[axis]]) * tcrossprod(normal[, axis])
-  distance <- as.matrix(stats::dist(field$points))
-  vapply(radii, function(radius) {
-    height <- bump(distance, radius)
-    sqrt(pmax(colSums(height * (m %*% height)), 1e-300))
-  }, numeric(k))
-}
-
-#' The scan's statistics without its weights: of many faces the shorter way
-#'
-#' @param u 3k x n.
-#' @param scale Of [scan_scale()].
-#' @return List by radius of n x k.
-#' @noRd
-scan_statistics <- function(field, u, radii, scale, inverse) {
-  k <- nrow(field$points)
-  solved <- apply_inverse(inverse, u) * (as.vector(field$normal) / field$sd)
-  along <- Reduce(`+`, lapply(1:3, function(d) solved[(d - 1) * k + seq_len(k), , drop = FALSE]))
-  distance <- as.matrix(stats::dist(field$points))
-  lapply(seq_along(radii), function(q) {
-    t(crossprod(bump(distance, radii[q]), along) / scale[, q])
-  })
 }
 
 #' Standardised deviations of faces, n x 3k

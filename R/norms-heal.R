@@ -4,8 +4,9 @@
 #'
 #' @param alpha Level of the scan.
 #' @param most Most discs.
-#' @return List: `found` (data frame `at`, `radius`, `z`), `out` (k), `u` (3k, healed), `variance`
-#'   (3k), `scan` (the first), `finished` (whether the rest has no more).
+#' @return List: `found` (data frame with a row for each disc: `at`, `radius`, `both`, `z`), `out`
+#'   (k), `u` (3k, healed), `variance` (3k), `scan` (the first), `finished` (whether the rest has no
+#'   more).
 #' @noRd
 heal_face <- function(field, found, age, sex, missing, alpha, most = 5) {
   out <- missing
@@ -15,16 +16,19 @@ heal_face <- function(field, found, age, sex, missing, alpha, most = 5) {
   # A large lesion moves the whole face as it is laid on: pose and scale over the spread of this age
   laid <- field
   laid$sd <- found$spread
-  hits <- data.frame(at = integer(), radius = numeric(), z = numeric())
+  hits <- data.frame(at = integer(), radius = numeric(), both = logical(), z = numeric())
   while (scan$p <= alpha && nrow(hits) < most) {
-    distance <- row_lengths(sweep(field$points, 2, field$points[scan$at, ]))
+    centres <- unique(c(scan$at, if (scan$both) field$partner[scan$at]))
+    distance <- Reduce(pmin, lapply(centres, function(at) {
+      row_lengths(sweep(field$points, 2, field$points[at, ]))
+    }))
     disc <- lesion_disc(distance, scan$radius)
     # Less than half of the face says nothing about the rest.
     if (mean(out | disc) > 0.5) break
     out <- out | disc
     wider[disc] <- pmax(wider[disc], wider_by(field, scan, distance[disc]))
-    hits <- rbind(hits, data.frame(at = scan$at, radius = scan$radius,
-                                   z = scan$z[scan$at, match(scan$radius, field$scan$radii)]))
+    hits <- rbind(hits, data.frame(at = centres, radius = scan$radius,
+                                   both = length(centres) > 1, z = scan$z_at))
     made <- given_the_rest(laid, found$u, rep(out, 3))
     healed <- list(u = made$fit, variance = made$variance * rep(wider, 3))
     scan <- scanned_face(field, utils::modifyList(found, list(u = made$fit)), age, sex, out)

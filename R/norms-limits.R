@@ -21,7 +21,7 @@ tail_p <- function(value, quantiles) {
 #' All faces held out in turn
 #'
 #' @param data,plan As in [fit_parts()]; `scales` as in [hold_out()].
-#' @return List: `z` (n x m), `map` (n), `surface`, `asymmetry`: lists `t` (by radius n x k),
+#' @return List: `z` (n x m), `map` (n), `surface`, `asymmetry`: lists `t` (by bump n x k),
 #'   `rough` (n), `u`; `privacy`: of [membership()].
 #' @noRd
 cross_validated <- function(data, plan, scales, progress) {
@@ -99,18 +99,20 @@ privacy_figures <- function(residuals) {
 
 #' The scan's scales and limit by held-out statistics
 #'
-#' @param t List by radius of n x k.
+#' @param t List by bump of [scan_bumps()] of n x k.
 #' @param field Its points are those of the statistics.
 #' @param people,plan As in [fit_parts()].
-#' @return List: `radii`, `s` (k x radii: spread of the statistic by place), `by_age` (list by group
-#'   of coefficients, k_spread x radii), `size` (of the splines), `quantiles` of the largest.
+#' @return List: `radii`, `both` (of the bumps), `s` (k x bumps: spread of the statistic by place),
+#'   `by_age` (list by group of coefficients, k_spread x bumps), `size` (of the splines),
+#'   `quantiles` of the largest.
 #' @noRd
 scan_limits <- function(t, field, people, plan) {
+  bumps <- scan_bumps(field, plan$radii)
   s <- vapply(seq_along(t), function(q) sqrt(colMeans(t[[q]]^2)), numeric(ncol(t[[1]])))
   if (length(people$age) < plan$smooth_below) {
     distance <- as.matrix(stats::dist(field$points))
     for (q in seq_along(t)) {
-      near <- bump(distance, plan$radii[q])
+      near <- bump(distance, bumps$radius[q])
       s[, q] <- sqrt(near %*% s[, q]^2 / rowSums(near))
     }
   }
@@ -126,7 +128,7 @@ scan_limits <- function(t, field, people, plan) {
     spread <- mean(t(t(part) / colMeans(part) - 1)^2)
     rounded_to(smooth_log_variance(x, part, max(spread, 0.01))$coef, 1e-3)
   })
-  limits <- list(radii = plan$radii, s = s, by_age = by_age, size = size)
+  limits <- list(radii = bumps$radius, both = bumps$both, s = s, by_age = by_age, size = size)
   c(limits, list(quantiles = limit_quantiles(
     apply(scan_maps(t, limits, people$age, people$group)$largest, 1, max)
   )))
@@ -134,8 +136,8 @@ scan_limits <- function(t, field, people, plan) {
 
 #' The scan's statistics over their spread at each place, age and group
 #'
-#' @param extra List by radius of n x k: variance that a worse scan adds, or NULL.
-#' @return List: `z` (list by radius of n x k), `largest` (n x radii: of |z|).
+#' @param extra List by bump of n x k: variance that a worse scan adds, or NULL.
+#' @return List: `z` (list by bump of n x k), `largest` (n x bumps: of |z|).
 #' @noRd
 scan_maps <- function(t, limits, age, group, extra = NULL) {
   factor <- matrix(1, length(age), length(t))

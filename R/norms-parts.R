@@ -14,10 +14,9 @@ fit_parts <- function(data, rows, plan) {
   normal <- as.matrix(data$points[c("nx", "ny", "nz")])
   side <- data$points$side
   surface <- fit_field(data$y[rows, , drop = FALSE], points, normal, people, plan,
-                       mirrored = any(side))
+                       if (any(side)) data$points$partner)
   asymmetry <- if (!is.null(data$off)) {
-    fit_field(data$off[rows, , drop = FALSE], points[side, ], normal[side, ], people, plan,
-              mirrored = FALSE)
+    fit_field(data$off[rows, , drop = FALSE], points[side, ], normal[side, ], people, plan)
   }
   scores <- field_scores(surface, data$y[rows, , drop = FALSE], people$age, people$group)
   values <- cbind(data$values[rows, , drop = FALSE], scores)
@@ -40,7 +39,7 @@ field_scores <- function(field, y, age, group) {
 #'
 #' @param scales List `surface`, `asymmetry` of [scan_scale()].
 #' @return List: `z` (n x m: of log size, measurements, scores), `map` (n: largest |z| along the
-#'   normals), `surface`, `asymmetry`: lists of `t` (list by radius of n x k), `rough` (n: median
+#'   normals), `surface`, `asymmetry`: lists of `t` (list by bump of n x k), `rough` (n: median
 #'   squared residual from what the neighbours make expected); of `surface` also `u` (n x 3k).
 #' @noRd
 hold_out <- function(parts, data, rows, radii, scales) {

@@ -54,7 +54,7 @@ prepared_field <- function(norms, name, scan = TRUE) {
     field$own_variance <- 1 / inverse_diagonal(field$inverse)
   }
   if (scan && is.null(field$weights)) {
-    field$weights <- scan_weights(field, field$scan$radii, field$inverse)
+    field$weights <- scan_weights(field, unique(field$scan$radii), field$inverse)
   }
   assign(name, field, norms$cache)
   field
@@ -89,9 +89,10 @@ excess_variance <- function(field, found, se, se_norm) {
   list(excess = (max(1, rough) - 1) * field$own_variance, errors = "estimated", rough = rough)
 }
 
-#' The scan of one face: every centre and radius
+#' The scan of one face: every centre, radius, and one or both sides
 #'
-#' @return List: `z` (k x radii), `largest`, `p`, `at` (row), `radius`.
+#' @return List: `z` (k x bumps), `largest`, `p`, `at` (row), `radius`, `both`, `z_at` (with its
+#'   sign).
 #' @noRd
 scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$points))) {
   t <- lapply(field$weights, function(w) crossprod(found$u, w))
@@ -103,5 +104,6 @@ scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$poi
   free[but, ] <- 0
   best <- arrayInd(which.max(abs(free)), dim(z))
   list(z = z, largest = abs(free[best]), at = best[1], radius = field$scan$radii[best[2]],
+       both = field$scan$both[best[2]], z_at = free[best],
        p = tail_p(abs(free[best]), field$scan$quantiles))
 }

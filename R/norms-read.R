@@ -91,8 +91,9 @@ norms_from_tables <- function(header, tables) {
          along = splines_from_tables(paste0(name, "-along"), size, unit, 0, tables, sexes),
          sd = unname(loadings[, 1]) * 1e-4, vectors = unname(loadings[, -1, drop = FALSE]) * 1e-4,
          values = own$values, kernel = own$kernel, mirrored = own$mirrored, ranges = own$ranges,
-         scan = list(radii = own$radii, s = unname(as.matrix(tables[[paste0("scan-", name)]])),
-                     by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
+         partner = if (name == "surface" && any(points$side)) points$partner,
+         scan = list(radii = own$radii, both = own$both,
+                     s = unname(as.matrix(tables[[paste0("scan-", name)]])), by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
          rough = own$rough, healing = if (name == "surface") tables$healing)
   }
   measurements <- tables$measurements

@@ -26,7 +26,8 @@
 #' * `components-*.csv`: mean spread and loadings of co-ordinates (all x first), in 0.0001;
 #' * `healing.csv`: by centre and radius how much more faces vary in a disc than the field makes
 #'   expected;
-#' * `scan-*.csv`: the spread of the scan's statistic by point and radius.
+#' * `scan-*.csv`: the spread of the scan's statistic by point and bump: its radius after `r` for
+#'   one side, after `b` for both.
 #'
 #' @param norms A `shape_norms`, as of [fit_norms()].
 #' @param dir Path of a folder. [write_norms()] creates it; it must not have other files than those
@@ -143,7 +144,8 @@ norm_tables <- function(norms) {
       loadings, c("sd", paste0("v", seq_len(ncol(field$vectors))))
     )
     s <- as.data.frame(field$scan$s)
-    tables[[paste0("scan-", name)]] <- stats::setNames(s, paste0("r", field$scan$radii))
+    names(s) <- paste0(ifelse(field$scan$both, "b", "r"), field$scan$radii)
+    tables[[paste0("scan-", name)]] <- s
   }
   tables
 }
@@ -190,8 +192,8 @@ norm_header <- function(norms) {
     if (is.null(one)) return(NULL)
     list(values = I(one$values), kernel = I(one$kernel), mirrored = I(one$mirrored),
          ranges = I(one$ranges), rough = one$rough, radii = I(one$scan$radii),
-         quantiles = I(one$scan$quantiles), by_age = lapply(one$scan$by_age, function(x) x),
-         age_splines = one$scan$size)
+         both = I(one$scan$both), quantiles = I(one$scan$quantiles),
+         by_age = lapply(one$scan$by_age, function(x) x), age_splines = one$scan$size)
   }
   list(format = "crestline-norms", version = norm_version(), about = norms$about,
        scheme = norms$scheme, n = norms$n, sexes = I(norms$ages$sex), names = as.list(norms$names),

@@ -282,14 +282,10 @@ lesions <- function(norms, settings, faces) {
                       data.frame(height = height, radius = 15))
     found <- looked_at(norms, data, settings$noise)
     at <- match(data$lesions$point, norms$points$point)
-    scan <- found$surface$plain
-    best <- Reduce(pmax, lapply(scan$z, abs))
-    where <- max.col(best)
-    hit <- apply(scan$largest, 1, max) > limit_of(norms$surface$scan$quantiles)
-    near <- distance[cbind(where, at)] <= 15
+    scan <- scan_near(found$surface$plain, norms, distance, at)
     map <- found$map > limit_of(norms$limits$map) & distance[cbind(found$map_at, at)] <= 15
-    say(sprintf("lesion %g mm on 3 cm: scan, marginal map", height),
-        c(mean(hit & near), mean(map)), faces)
+    say(sprintf("lesion %g mm on 3 cm: scan, marginal map", height), c(mean(scan), mean(map)),
+        faces)
     other <- found$asymmetry$plain
     row <- ifelse(at %in% side, at, norms$points$partner[at])
     off_middle <- abs(norms$points$x[at] - stats::median(norms$points$x)) > 15 & row %in% side
@@ -298,7 +294,23 @@ lesions <- function(norms, settings, faces) {
     near <- distance[cbind(where, row)] <= 15
     say(sprintf("lesion %g mm, asymmetry scan, off the mid-line", height),
         mean((hit & near)[off_middle]), sum(off_middle))
+    # The same on the other side too, by the norm's own points
+    partner <- norms$points$partner[at]
+    put <- height * data$scale * t(own("bump")(distance[, partner], 15))
+    data$y <- data$y + cbind(put, put, put) * rep(as.vector(norms$surface$normal), each = faces)
+    found <- looked_at(norms, data, settings$noise)
+    scan <- scan_near(found$surface$plain, norms, distance, at) |
+      scan_near(found$surface$plain, norms, distance, partner)
+    say(sprintf("lesion %g mm on both sides, off the mid-line: scan", height),
+        mean(scan[off_middle]), sum(off_middle))
   }
+}
+
+# Whether the scan finds something, within 15 mm of a place
+scan_near <- function(scan, norms, distance, at) {
+  where <- max.col(Reduce(pmax, lapply(scan$z, abs)))
+  apply(scan$largest, 1, max) > limit_of(norms$surface$scan$quantiles) &
+    distance[cbind(where, at)] <= 15
 }
 
 healed <- function(norms, settings, faces) {

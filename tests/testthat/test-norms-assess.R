@@ -54,6 +54,30 @@ test_that("a lesion is found where it is, and healed; a plain face is left as it
   expect_match(paste(utils::capture.output(print(with)), collapse = "\n"), "found at .*height")
 })
 
+test_that("a lesion on both sides is found on both, and healed there", {
+  norms <- small_norms()
+  side <- which(norms$points$side)[10]
+  pair <- norms$points$point[c(side, norms$points$partner[side])]
+  plain <- small_patient()
+  both <- plain
+  xyz <- c("x", "y", "z")
+  for (point in pair) {
+    one <- small_patient(lesions = data.frame(height = 8, radius = 18, point = point))
+    both$points[xyz] <- both$points[xyz] + one$points[xyz] - plain$points[xyz]
+  }
+  found <- looked(both)
+  expect_equal(found$verdicts$verdict[5], "real")
+  expect_match(found$verdicts$where[5], " and ")
+  first <- found$findings[1:2, ]
+  expect_true(all(first$both))
+  row <- match(first$point, norms$points$point)
+  expect_equal(norms$points$partner[row], rev(row))
+  expect_true(all(found$points$healed[match(pair, norms$points$point)] > 4))
+  expect_match(paste(utils::capture.output(print(found)), collapse = "\n"), "both sides")
+  # Of one side only one disc is healed.
+  expect_false(any(looked(one)$findings$both))
+})
+
 test_that("points that are left out are what the whole correlation makes expected", {
   field <- small_norms()$surface
   u <- with_seed(3, stats::rnorm(105))

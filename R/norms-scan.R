@@ -1,0 +1,84 @@
+# The scan for lesions: bumps along the normals, at every point, of some radii, on one side or both.
+
+#' The bumps that a scan looks for
+#'
+#' Each side of a face tells what to expect of the other. A lesion on both sides is therefore what
+#' the scan for one side sees least, and is looked for by itself.
+#'
+#' @return Data frame: `radius`, `both` (whether on both sides; not where points have no partners).
+#' @noRd
+scan_bumps <- function(field, radii) {
+  both <- c(FALSE, if (!is.null(field$partner)) TRUE)
+  data.frame(radius = rep(radii, length(both)), both = rep(both, each = length(radii)))
+}
+
+#' What belongs to bumps on one side, and after it the same of both sides, if there are partners
+#'
+#' @param each List by radius of matrices with a column for each centre, or of lists of them.
+#' @noRd
+with_both_sides <- function(each, field) {
+  if (is.null(field$partner)) return(each)
+  paired <- which(!is.na(field$partner) & field$partner != seq_along(field$partner))
+  added <- function(x) {
+    x[, paired] <- x[, paired] + x[, field$partner[paired]]
+    x
+  }
+  c(each, lapply(each, function(x) if (is.list(x)) lapply(x, added) else added(x)))
+}
+
+#' Weights of the scan: a column for each centre
+#'
+#' t = w' u has variance 1 under the field, and is the best test of a bump along the normals there.
+#' @return List by bump of [scan_bumps()] of 3k x k matrices.
+#' @noRd
+scan_weights <- function(field, radii, inverse = invert_field(field)) {
+  distance <- as.matrix(stats::dist(field$points))
+  each <- lapply(radii, function(radius) {
+    height <- bump(distance, radius)
+    lesion <- rbind(height * field$normal[, 1], height * field$normal[, 2],
+                    height * field$normal[, 3]) / field$sd
+    list(lesion = lesion, w = apply_inverse(inverse, lesion))
+  })
+  lapply(with_both_sides(each, field), function(one) {
+    one$w / rep(sqrt(pmax(colSums(one$w * one$lesion), 1e-300)), each = nrow(one$w))
+  })
+}
+
+#' By what the inverse's product with a bump is divided in these weights: k x bumps
+#'
+#' Of the bumps B and the inverse M along the normals alone, the root of the diagonal of B'MB.
+#' @noRd
+scan_scale <- function(field, radii, inverse = invert_field(field)) {
+  k <- nrow(field$points)
+  along <- as.vector(field$normal) / field$sd
+  normal <- matrix(along, k)
+  solved <- Reduce(`+`, lapply(1:3, function(d) {
+    normal[, d] * inverse$solved[(d - 1) * k + seq_len(k), , drop = FALSE]
+  }))
+  m <- -solved %*% inverse$inner %*% t(solved)
+  for (axis in 1:3) m <- m + chol2inv(inverse$roots[[axis]]) * tcrossprod(normal[, axis])
+  distance <- as.matrix(stats::dist(field$points))
+  each <- lapply(radii, function(radius) {
+    height <- bump(distance, radius)
+    list(height = height, solved = m %*% height)
+  })
+  vapply(with_both_sides(each, field), function(one) {
+    sqrt(pmax(colSums(one$height * one$solved), 1e-300))
+  }, numeric(k))
+}
+
+#' The scan's statistics without its weights: of many faces the shorter way
+#'
+#' @param u 3k x n.
+#' @param scale Of [scan_scale()].
+#' @return List by bump of n x k.
+#' @noRd
+scan_statistics <- function(field, u, radii, scale, inverse) {
+  k <- nrow(field$points)
+  solved <- apply_inverse(inverse, u) * (as.vector(field$normal) / field$sd)
+  along <- Reduce(`+`, lapply(1:3, function(d) solved[(d - 1) * k + seq_len(k), , drop = FALSE]))
+  distance <- as.matrix(stats::dist(field$points))
+  each <- lapply(radii, function(radius) crossprod(along, bump(distance, radius)))
+  each <- with_both_sides(each, field)
+  lapply(seq_along(each), function(q) each[[q]] / rep(scale[, q], each = ncol(u)))
+}
