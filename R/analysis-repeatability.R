@@ -18,21 +18,25 @@
 #' error only; the variance of specimens and the correlation are NA.
 #'
 #' @param shapes The N measurements: a list of `shape`s of one scheme, a `shape_batch`, a
-#'   `shape_sample`, or a k x 3 x N array with names of points "curve point". In a list ids may
+#'   `shape_sample`, or a k x 3 x N array with names of points (see `level`). In a list ids may
 #'   repeat, and `NULL` stands for a failed measurement.
 #' @param specimen N names: the specimen of each measurement. Failed measurements may be included or
 #'   left out. A vector with names, or a data frame with a column of names, is matched to the names
 #'   of the measurements. A vector without names is taken in their order.
 #' @param observer N names, in the same way: the observer of each measurement. `NULL`: observers are
 #'   not in the model.
-#' @param level Kind of points of shapes and samples: "landmarks", "curves" or "surface".
+#' @param level Kind of points: "landmarks", "curves", "surface" or, of a sample or an array,
+#'   "model". It also decides what is one part. Each landmark is a part by itself. Other points are
+#'   one part if their names differ only in the last word, as "midline 1" and "midline 2". An array
+#'   says nothing of its level: without `level` its points are taken as curves, with a message, and
+#'   points without names as landmarks.
 #' @param match Superimposition of the measurements. "specimen": all measurements of a specimen are
 #'   in one frame, as on one scan. The mean of each specimen is superimposed on the others by
 #'   rotation and translation. "each": every measurement is superimposed on the mean by itself, as
 #'   for measurements on different scans. This removes a little of the error. "none": the
 #'   measurements are compared as they lie.
 #' @return Object of class `repeatability`, a list:
-#'   * `parts`: data frame with a row for each curve, and one for all:
+#'   * `parts`: data frame with a row for each part (curve or landmark), and one for all:
 #'     * `part`, `points` (number);
 #'     * `specimen`, `observer`, `interaction`, `residual`: standard deviations in the unit of the
 #'       mesh; NA for effects that are not in the model. They are of the three co-ordinates
@@ -44,7 +48,8 @@
 #'     mean;
 #'   * `counts`: numbers of `specimens`, `observers`, `measurements`, `failed`;
 #'   * `failed`: names (or numbers) of the failed measurements, which are left out;
-#'   * `missing`: names of points that some measurement lacks, which are left out.
+#'   * `missing`: names of points that some measurement lacks, which are left out;
+#'   * `level`: kind of points.
 #'
 #'   `as.data.frame()` gives `parts`.
 #' @section Errors: of class `crestline_error`: there are no measurements; a factor has another
@@ -62,13 +67,15 @@
 #' specimen <- rep(1:5, each = 3)
 #' arcs <- vapply(specimen, function(i) arc(9 + i / 3) + rnorm(27, sd = 0.1), arc(1))
 #' rownames(arcs) <- paste("arc", 1:9)
-#' repeatability(arcs, specimen)
+#' repeatability(arcs, specimen, level = "curves")
 #' @export
 repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
                           match = c("specimen", "each", "none")) {
   check_given()
   match <- check_choice(match, c("specimen", "each", "none"), "match")
   if (inherits(shapes, "shape_batch")) shapes <- as.list(shapes)
+  level <- if (is.array(shapes)) level_of_array(shapes, if (!missing(level)) level) else
+    check_choice(level, sample_levels, "level")
   failed <- failed_measurements(shapes)
   if (any(failed)) shapes <- shapes[!failed]
   coords <- measured_coords(shapes, level)
@@ -89,8 +96,7 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
   # Variances of co-ordinates, summed by point: k x 4
   sums <- apply(array(components, c(4, nrow(coords), 3)), c(2, 1), sum)
   each <- structure(sums, dimnames = list(NULL, rownames(components)))
-  part <- sub(" [^ ]*$", "", rownames(coords))
-  part <- factor(part, unique(part))
+  part <- repeated_parts(rownames(coords), level)
   size <- as.vector(table(part))
   mean <- structure(rowMeans(framed, dims = 2), dimnames = list(NULL, c("x", "y", "z")))
   by_part <- rbind(rowsum(each, part) / size, all = colMeans(each))
@@ -98,11 +104,37 @@ repeatability <- function(shapes, specimen, observer = NULL, level = "curves",
                        component_table(each))
   parts <- data.frame(part = rownames(by_part), points = c(size, nrow(coords)),
                       component_table(by_part))
-  structure(list(parts = parts, points = points, missing = missing, failed = names(failed)[failed],
-                 counts = c(specimens = nlevels(specimen), observers = nlevels(observer),
-                            measurements = n, failed = sum(failed)),
+  structure(list(parts = parts, points = points, missing = missing, level = level,
+                 failed = names(failed)[failed], counts = c(
+                   specimens = nlevels(specimen), observers = nlevels(observer),
+                   measurements = n, failed = sum(failed)
+                 ),
                  provenance = repeats_provenance(shapes)),
             class = "repeatability")
+}
+
+#' The part of each point: a landmark by itself, a curve or a line of a patch by its name
+#' @noRd
+repeated_parts <- function(points, level) {
+  part <- if (level == "landmarks") points else sub(" [^ ]*$", "", points)
+  factor(part, unique(part))
+}
+
+#' The level of an array, which says nothing of it
+#' @param level As it was given, NULL where it was not.
+#' @noRd
+level_of_array <- function(coords, level) {
+  if (!is.null(level)) return(check_choice(level, sample_levels, "level"))
+  if (is.null(rownames(coords))) return("landmarks")
+  part <- table(repeated_parts(rownames(coords), "curves"))
+  part <- part[part > 1]
+  if (length(part)) {
+    crestline_inform(sprintf(paste(
+      "Points whose names differ only in the last word are taken as one curve: %s. If they are",
+      "landmarks, give level = \"landmarks\"."
+    ), shorten(sprintf("%s (%d points)", names(part), part), 3)))
+  }
+  "curves"
 }
 
 repeats_provenance <- function(shapes) {

@@ -4,7 +4,8 @@
 #'
 #' Draws two panels. The left panel has the error of each part, in the unit of the mesh. The
 #' standard deviation between specimens is behind it (grey), and the intra-class correlation beside
-#' it. The right panel has the mean points, coloured by their error. For one specimen only the error
+#' it. The right panel has the mean points, coloured by their error. The points of a curve are
+#' joined by a line, landmarks are not. For one specimen only the error
 #' is drawn. With `engine = "widget"` the mean points turn in the browser, and the left panel is not
 #' drawn.
 #'
@@ -26,7 +27,7 @@
 #' specimen <- rep(1:5, each = 3)
 #' arcs <- vapply(specimen, function(i) arc(9 + i / 3) + rnorm(27, sd = angle / 5), arc(1))
 #' rownames(arcs) <- paste("arc", 1:9)
-#' plot(repeatability(arcs, specimen))
+#' plot(repeatability(arcs, specimen, level = "curves"))
 #' @export
 plot.repeatability <- function(x, view = "front", most = 40,
                                palette = grDevices::hcl.colors(64, "YlOrRd", rev = TRUE)[10:64],
@@ -48,8 +49,7 @@ plot.repeatability <- function(x, view = "front", most = 40,
   flat <- as.matrix(x$points[c("x", "y", "z")]) %*% t(rotation)
   graphics::plot.new()
   graphics::plot.window(range(flat[, 1]), range(flat[, 2]), asp = 1)
-  for (part in unique(x$points$part)) graphics::lines(flat[x$points$part == part, 1:2,
-                                                           drop = FALSE], col = "grey70")
+  for (own in joined_points(x)) graphics::lines(flat[own, 1:2, drop = FALSE], col = "grey70")
   front <- order(x$points$error)
   graphics::points(flat[front, 1:2], pch = 16, cex = size,
                    col = error_colours(x$points$error, x, palette)[front])
@@ -58,15 +58,21 @@ plot.repeatability <- function(x, view = "front", most = 40,
   invisible(x)
 }
 
+#' Rows of points that a line joins: those of a curve
+#' @return List of integers.
+#' @noRd
+joined_points <- function(x) {
+  if (identical(x$level, "landmarks")) return(list())
+  split(seq_len(nrow(x$points)), factor(x$points$part, unique(x$points$part)))
+}
+
 #' The mean points as a scene, coloured by error
 #' @noRd
 repeatability_scene <- function(x, view, palette, size, ...) {
   at <- as.matrix(x$points[c("x", "y", "z")])
   rownames(at) <- x$points$point
   scene <- configuration_scene(list(at), posed_view(view, at), list(...))
-  for (own in split(seq_len(nrow(at)), factor(x$points$part, unique(x$points$part)))) {
-    draw_lines(scene, at[own, , drop = FALSE], "grey70", 2)
-  }
+  for (own in joined_points(x)) draw_lines(scene, at[own, , drop = FALSE], "grey70", 2)
   draw_points(scene, at, error_colours(x$points$error, x, palette), size,
               name = sprintf("%s: %.3g", x$points$point, x$points$error))
   map_legend(scene, palette, c(0, max(x$points$error)), "unit of the meshes")

@@ -207,3 +207,23 @@ test_that("specimens and observers with names go to measurements by name", {
                          c("no value for m2", "other"))
   expect_crestline_error(repeatability(x, c("A", "a", "B", "B")), "differ by blanks or case only")
 })
+
+test_that("landmarks are parts of their own, and no line joins them", {
+  x <- array(with_seed(4, rnorm(60)), c(5, 3, 4), list(paste("LM", 1:5), NULL, paste0("m", 1:4)))
+  specimen <- c(m1 = "A", m2 = "A", m3 = "B", m4 = "B")
+  # Pixels of the right panel that are not white: points, and lines between them.
+  drawn <- function(found) sum(drawn_pixels(plot(found), 800, 400)[, 440:700, 1] < 1)
+  landmarks <- repeatability(x, specimen, level = "landmarks")
+  expect_identical(landmarks$parts$part, c(paste("LM", 1:5), "all"))
+  expect_equal(landmarks$parts$error[1:5], landmarks$points$error)
+  expect_message(curve <- repeatability(x, specimen), "LM (5 points)", fixed = TRUE)
+  expect_silent(again <- repeatability(x, specimen, level = "curves"))
+  expect_identical(again, curve)
+  expect_identical(curve$parts$part, c("LM", "all"))
+  expect_gt(drawn(curve), drawn(landmarks) + 100)
+  # Without names they are landmarks: nothing says that they lie on a curve.
+  expect_length(repeatability(unname(x), unname(specimen))$parts$part, 6)
+  expect_crestline_error(repeatability(x, specimen, level = "curve"), "`level`")
+  expect_length(joined_points(landmarks), 0)
+  expect_length(joined_points(curve), 1)
+})
