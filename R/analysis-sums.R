@@ -20,6 +20,7 @@ sums_in_files <- function(aligned, labels, counts, normals) {
   sizes <- tabulate(labels[, 1])
   summed <- seq_along(sizes)[-which.max(sizes)]
   sign <- if (length(sizes) == 2) c(1, -1)[labels[, 1]] / sizes[labels[, 1]]
+  check_sums(aligned, length(summed), ncol(labels), if (!is.null(sign)) ncol(counts))
   weight <- rep(aligned$weights, ncol(aligned$mean))
   squares <- numeric(length(aligned))
   found <- NULL
@@ -35,6 +36,19 @@ sums_in_files <- function(aligned, labels, counts, normals) {
     found <- if (is.null(found)) own else added(found, own)
   }
   c(found, list(squares = squares, normals = normals))
+}
+
+#' The sums are not larger than memory
+#' @param groups,orders,drawn Numbers of groups that are summed, of regroupings, of bootstrap samples
+#'   (NULL: none).
+#' @param copies How often the sums of the regroupings are held at once: those of the blocks before,
+#'   those of one more, and both added.
+#' @noRd
+check_sums <- function(aligned, groups, orders, drawn, copies = 3) {
+  points <- nrow(aligned$mean)
+  by_order <- (length(aligned$mean) + points) * as.numeric(groups) * orders
+  by_draw <- length(aligned$mean) * as.numeric(max(drawn, 0))
+  check_memory(copies * (by_order + by_draw), orders - 1, "n_perm")
 }
 
 added <- function(a, b) if (is.list(a)) Map(added, a, b) else a + b

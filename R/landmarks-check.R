@@ -244,13 +244,17 @@ turn_words <- function(turns) {
 
 spread_of <- function(xyz) sqrt(sum(apply(xyz, 2, stats::var)))
 
-# Whether names end in L or R, for left and right.
-is_sided <- function(names) endsWith(names, "L") | endsWith(names, "R")
+# Side of names that end in L or R: "left", "right", "" of others.
+name_side <- function(names) {
+  ifelse(endsWith(names, "L"), "left", ifelse(endsWith(names, "R"), "right", ""))
+}
+
+is_sided <- function(names) nzchar(name_side(names))
 
 #' Names that end in L and R, as partners
 #' @noRd
 side_pairs <- function(names) {
-  left <- names[endsWith(names, "L")]
+  left <- names[name_side(names) == "left"]
   right <- sub("L$", "R", left)
   data.frame(left = left, right = right)[right %in% names, ]
 }

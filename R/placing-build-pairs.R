@@ -36,7 +36,7 @@ mirror_pairs <- function(at, tolerance = 0.12, least = 0.6) {
   met <- mirror_met(at, normal, middle, tolerance * size)
   pair <- which(met$partner > seq_len(k))
   two <- cbind(rownames(at)[pair], rownames(at)[met$partner[pair]])
-  turned <- grepl("R$", two[, 1]) & grepl("L$", two[, 2])
+  turned <- name_side(two[, 1]) == "right" & name_side(two[, 2]) == "left"
   two[turned, ] <- two[turned, 2:1]
   data.frame(left = two[, 1], right = two[, 2])
 }

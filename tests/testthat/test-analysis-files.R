@@ -53,6 +53,36 @@ test_that("pairs, repeats and sites in files are those of the array", {
   }
 })
 
+test_that("a model of blocks is saved with its units, and a failure leaves no folder", {
+  skip_if_not_installed("nanoparquet")
+  stored <- stored_sample(c(12, 12), k = 5, triangles = four_triangles())
+  kept <- tempfile("kept-")
+  on.exit(unlink(kept, recursive = TRUE))
+  files <- align(stored$files, settings = align_settings(dir = kept))
+  data <- data.frame(id = names(files), age = rep(c(3, 9, 1, 4, 8, 2, 7, 5), each = 3))
+  fit <- function(x) {
+    shape_lm(x, ~ age, data, n_perm = 20, block = rep(1:8, each = 3), seed = 1,
+             settings = model_settings(components = 2))
+  }
+  model <- fit(files)
+  expect_identical(model$exchange, "whole")
+  expect_alike(model, fit(align(stored$x, triangles = four_triangles())), c("tests", "points"))
+  # Another session has other temporary files, and the folder that the user named.
+  saved <- tempfile(fileext = ".rds")
+  saveRDS(model, saved)
+  unlink(list.files(tempdir(), "^units-", full.names = TRUE), recursive = TRUE)
+  read <- readRDS(saved)
+  expect_equal(predict(read, data.frame(age = 6)), predict(model, data.frame(age = 6)))
+  expect_s3_class(draw_quietly(plot(read, "scores")), "data.frame")
+  design <- list(kind = "within", block = factor(rep(1:12, 2)))
+  where <- asNamespace("crestline")
+  suppressMessages(trace("write_block", quote(stop("the disk is full")), print = FALSE,
+                         where = where))
+  on.exit(suppressMessages(untrace("write_block", where = where)), add = TRUE)
+  expect_error(units_in_files(files, design), "the disk is full")
+  expect_length(list.files(tempdir(), "^units-"), 0)
+})
+
 test_that("missing points of files are put in as those of the array", {
   skip_if_not_installed("nanoparquet")
   stored <- stored_sample()

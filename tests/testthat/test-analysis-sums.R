@@ -20,3 +20,11 @@ test_that("the greatest group's sums are minus the others'", {
                    list(sums[[1]]^2, (sums[[1]] + sums[[2]])^2, sums[[2]]^2))
   expect_identical(of_groups(sums[1], sum, c(3, 9)), list(10L, 10L))
 })
+
+test_that("sums that memory cannot hold are refused before a file is read", {
+  large <- list(mean = matrix(0, 1e6, 3), weights = 1)
+  labels <- matrix(rep(1:2, 2000), 2)
+  expect_crestline_error(sums_in_files(large, labels, matrix(1L, 2, 3), NULL),
+                         c("`n_perm` is 1999", "GB"))
+  expect_silent(check_sums(list(mean = matrix(0, 921, 3)), 1, 1e5, 1000))
+})
