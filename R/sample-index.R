@@ -23,7 +23,8 @@ folder_index <- function(dir) {
   if (length(new)) {
     new <- do.call(rbind, new)
     index[which(!fresh), ] <- new
-    append_index(new, dir)
+    known <- index_lines(new) %in% attr(rows, "unclear")
+    if (!all(known)) append_index(new[!known, ], dir)
   }
   index$path <- file.path(dir, files)
   rownames(index) <- NULL
@@ -40,6 +41,8 @@ time_text <- function(info) sprintf("%.6f", as.numeric(info$mtime))
 #' @param kind First word of the files' names.
 #' @param columns Names of their columns, `file` the first and `end` the last.
 #' @param most Files of which one is made where there are more.
+#' @return Data frame of `columns`; attribute `unclear`: the lines of ambiguous files, which are left
+#'   out.
 #' @noRd
 read_index <- function(dir, kind = "index", columns = index_columns, most = 8) {
   parts <- list.files(dir, sprintf("^%s-.*[.]tsv$", kind), full.names = TRUE)
@@ -54,9 +57,11 @@ read_index <- function(dir, kind = "index", columns = index_columns, most = 8) {
   table <- table[table$end == ".", ]
   # Measures are used by the key of their result only.
   unclear <- if (kind == "index") ambiguous_files(table)
-  table <- table[!table$file %in% unclear & !duplicated(table$file, fromLast = TRUE), ]
+  left_out <- table$file %in% unclear
+  said <- if (any(left_out)) index_lines(table[left_out, ])
+  table <- table[!left_out & !duplicated(table$file, fromLast = TRUE), ]
   if (length(parts) > most) merge_index(table, parts, dir, kind)
-  table
+  structure(table, unclear = said)
 }
 
 #' Files of which two lines say different things, though they name the same size and time: on a disk

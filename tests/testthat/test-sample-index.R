@@ -27,6 +27,10 @@ test_that("an index that is absent, stale, doubled or cut short changes nothing"
     unlink(parts())
     writeLines(both, file.path(out, "index-both.tsv"))
     expect_identical(indexed(out), known)
+    # Its line is there already: reading again adds none.
+    before <- unlist(lapply(parts(), readLines))
+    expect_identical(indexed(out), known)
+    expect_identical(unlist(lapply(parts(), readLines)), before)
   }
   # Its file was touched: not the index is right.
   Sys.setFileTime(file.path(out, "ball 2.shape"), "2001-01-01")
