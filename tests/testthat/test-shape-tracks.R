@@ -84,6 +84,32 @@ test_that("tracks of other objects are said and not used", {
                     class = "crestline_foreign_tracks")
 })
 
+test_that("a scheme that grows fits curves with tracks anew: they depend on all curves", {
+  # One curve alone does not show that its track is of other objects; three do.
+  rows <- arches_scheme$curves[c(1, 1, 1), ]
+  rows$curve <- c("arch", "bow", "vault")
+  three <- curve_scheme(arches_scheme$landmarks, rows, name = "arches")
+  turned <- lapply(1:3, function(seed) fit_arches(arches_specimen(2, 3, seed), three))
+  foreign <- learn_tracks(turned, fewest = 3, places = 5)
+  alone <- curve_scheme(foreign$landmarks, foreign$curves[1, ], name = "arches",
+                        tracks = foreign$tracks[foreign$tracks$curve == "arch", ])
+  begin <- function(scheme) {
+    begin_fitting(right_ones[[1]], scheme, ridge_settings(error = FALSE), 0, 1)
+  }
+  small <- refit_curves(begin(alone), right_ones[[1]])
+  grown <- suppressWarnings(grow_fitting(small, begin(foreign)))
+  expect_identical(grown$refitted, c("arch", "bow", "vault"))
+  anew <- suppressWarnings(refit_curves(begin(foreign), right_ones[[1]]))
+  expect_identical(grown$fits, anew$fits)
+  expect_false(identical(grown$fits$arch, small$fits$arch))
+  # Curves without a track stay as they are.
+  plain <- curve_scheme(arches_scheme$landmarks, rows[1:2, ], name = "arches")
+  before <- refit_curves(begin(plain), right_ones[[1]])
+  after <- grow_fitting(before, begin(three))
+  expect_identical(after$refitted, "vault")
+  expect_identical(after$fits[1:2], before$fits)
+})
+
 test_that("tracks are the same in another pose and unit, and one wrong curve does no harm", {
   turn <- rotation_about(c(0.3, -0.7, 1))
   moved <- lapply(right_ones, function(one) {
