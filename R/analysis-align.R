@@ -105,6 +105,23 @@ align <- function(sample, level = c("landmarks", "curves", "surface", "model"), 
   aligned_of(sample, level, triangles, settings, limits, folder)
 }
 
+#' Whether something is a sample or an array, to be aligned
+#' @noRd
+is_unaligned <- function(x) {
+  inherits(x, "shape_sample") || inherits(x, "sample_files") || is.array(x) && length(dim(x)) == 3
+}
+
+#' Say which points of a sample are taken where no level is given
+#' @noRd
+say_level <- function(sample) {
+  if (!inherits(sample, c("shape_sample", "sample_files")) || is.null(sample$template)) {
+    return(invisible())
+  }
+  count <- function(level) nrow(level_places(sample$template, level))
+  crestline_inform(sprintf(paste("The %d landmarks are taken. Give level = \"curves\" for %d",
+                                 "points of curves."), count("landmarks"), count("curves")))
+}
+
 #' The alignment of a sample in memory, or in files
 #' @noRd
 aligned_of <- function(sample, level, triangles, settings, limits, folder) {

@@ -133,15 +133,6 @@ as_aligned <- function(x, size = NULL, level = "points", triangles = NULL) {
   ))
 }
 
-#' Say which points of a sample are handed over where no level is given
-#' @noRd
-say_level <- function(sample) {
-  if (!inherits(sample, "shape_sample")) return(invisible())
-  count <- function(level) nrow(level_places(sample$template, level))
-  crestline_inform(sprintf(paste("The %d landmarks are handed over. Give level = \"curves\" for %d",
-                                 "points of curves."), count("landmarks"), count("curves")))
-}
-
 sizes_by_specimen <- function(size, ids) {
   fail <- function(problem, remedy) crestline_abort(problem, remedy, stage = "align")
   by_specimen(size, ids, "size", fail)

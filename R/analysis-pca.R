@@ -4,7 +4,8 @@
 #'
 #' Finds the principal components of aligned shapes, and the scores of the specimens on them.
 #'
-#' @param aligned An `aligned`, as [align()] returns it.
+#' @param aligned An `aligned`, as [align()] returns it; or a `shape_sample`, a sample in files or a
+#'   k x 3 x n array, which is aligned first, by `align(aligned, level)`.
 #' @param weights Weights of points, as in [align()]. Default: those of the alignment. With "area"
 #'   the variance does not depend on the density of points on the surface.
 #' @param tolerance Components whose variance is below this share of the first component's are left
@@ -18,6 +19,8 @@
 #'   by the square of how far they move. The sign of a component whose correlation with size is
 #'   weaker than `sized` may turn when a specimen is added or left out. With 23 faces 1 of 115
 #'   components did. No rule gives every component a sign that no small change of the sample turns.
+#' @param level Level of a `shape_sample`, or of a sample in files that has levels, as in [align()].
+#'   Default: "landmarks", with a message. Not used of an `aligned` or an array.
 #' @return Object of classes `shape_pca` and `prcomp`, a list:
 #'   * `x` (n x r scores), `sdev` (r), `rotation` (d k x r, rows in the order of `as.vector(mean)`),
 #'     `center`, `scale` (`FALSE`). If all weights are 1, these are the values of [stats::prcomp()]
@@ -35,8 +38,8 @@
 #'   `as.data.frame()` gives a data frame with a row for each component: `component`, `sd`, `share`,
 #'   `cumulative`. `data.frame(id = rownames(pca$x), pca$x)` is a table of the scores. `summary()`
 #'   and `biplot()` are those of `prcomp`. For `predict()` see [predict.shape_pca()].
-#' @section Errors: of class `crestline_error`: `aligned` is not an `aligned`, or all shapes are
-#'   equal.
+#' @section Errors: of class `crestline_error`: `aligned` is not an `aligned`, a sample or an array;
+#'   all shapes are equal; and those of [align()], whose warnings are given too.
 #' @template glossary
 #' @templateVar where section 6
 #' @template paper
@@ -50,11 +53,15 @@
 #' shape_at(pca, 1, 2)
 #' @export
 shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, components = NULL,
-                      sized = 0.4) {
+                      sized = 0.4, level = c("landmarks", "curves", "surface", "model")) {
   check_given()
   if (!is.null(components)) components <- check_count(components, "components")
   tolerance <- check_number(tolerance, "tolerance", lower = 0)
   sized <- check_number(sized, "sized", 0, 1)
+  if (is_unaligned(aligned)) {
+    if (missing(level)) say_level(aligned)
+    aligned <- align(aligned, level)
+  }
   check_class(aligned, "aligned", "aligned", "align()")
   weights <- point_weights(weights, as_whole(aligned, weights))
   dims <- c(dim(aligned$mean), length(aligned))

@@ -66,6 +66,7 @@ landmarks_for <- function(landmarks, ids, ...) {
   source <- landmark_source(landmarks, ids, ...)
   if (length(ids) == 1 && length(source$sets) == 1 &&
       (is.null(names(source$sets)) || isTRUE(source$file))) {
+    tell_other_name(c(names(source$sets), source$alias), source$what, ids)
     return(for_ids(source$sets, ids, NA))
   }
   if (is.null(names(source$sets))) {
@@ -100,6 +101,18 @@ landmarks_for <- function(landmarks, ids, ...) {
   fine <- is.na(problem)
   sets[fine] <- source$sets[vapply(place[fine], `[`, 1L, 1L)]
   for_ids(sets, ids, problem)
+}
+
+#' Say that the only set of a file is of another specimen by its name there; not where the file has
+#' the specimen's name, and not of a name that only counts
+#' @noRd
+tell_other_name <- function(names, file, id) {
+  known <- c(names, sub(id_extension(), "", file, ignore.case = TRUE))
+  counts <- grepl("^[0-9]*$", names)
+  if (all(counts) || length(id_places(id, known)[[1]])) return(invisible())
+  crestline_inform(sprintf(
+    "%s has landmarks of %s. They are taken for %s.", file, shorten(names[!counts]), id
+  ))
 }
 
 #' Landmarks of one specimen, as [specimen()] takes them

@@ -33,7 +33,9 @@
 #'   numbers, and closed ones are opened, with a warning.
 #' * `.tps`: `CURVES=` are open, `OUTLINES=` closed. The format has no names of landmarks and
 #'   curves, so they are stored in `COMMENT=` lines. A specimen's name is its `ID=`, else its
-#'   `IMAGE=`, else its number. Negative co-ordinates are numbers, not missing.
+#'   `IMAGE=`, else its number. Negative co-ordinates are numbers, not missing. [read_specimen()]
+#'   takes a file of one specimen whatever this name is, with a message if both this name and the
+#'   file's are not the specimen's.
 #' * `.nts`, `.dta`: the header gives a code for missing values. The code is used if the header
 #'   announces missing values, or if all co-ordinates of a point have it. Names of landmarks are
 #'   stored in a comment.
@@ -90,7 +92,8 @@
 #'   file's unit and order. A missing landmark has three NA. Points of two-dimensional files have
 #'   z = 0. Landmarks without a name are numbered. If the file has curves, the attribute `curves`
 #'   has them: a named list of n x 3 matrices, each with the attribute `closed`. A folder, or a file
-#'   of several specimens, gives a named list of such matrices. `write_landmarks()`: `file`,
+#'   of several specimens, gives a named list of such matrices. A file of one specimen gives a matrix
+#'   without the specimen's name. `write_landmarks()`: `file`,
 #'   invisibly. Errors are of class `crestline_landmark_error`; they name the file, the line and the
 #'   remedy.
 #' @template glossary

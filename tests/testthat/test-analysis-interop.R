@@ -123,7 +123,7 @@ test_that("which points of a sample are handed over is said if no level is given
     shape
   }, c(28, 29, 31), c("a", "b", "c"))
   sample <- suppressMessages(homologise(shapes, progress = FALSE))
-  expect_message(as_rrpp(sample), "The 4 landmarks are handed over. Give level = \"curves\" for 24")
+  expect_message(as_rrpp(sample), "The 4 landmarks are taken. Give level = \"curves\" for 24")
   expect_message(as_morpho(sample), "4 landmarks")
   expect_no_message(as_geomorph(sample, "curves"))
   expect_no_message(as_geomorph(align(sample)))

@@ -139,3 +139,18 @@ test_that("an ID= that is there twice is named where specimens cannot be told ap
   tps <- landmark_file("tps", rep(c("LM3=1", "1 2 3", "ID=S1"), 2))
   expect_crestline_error(landmarks_for(tps, c("S1", "S2")), "ID=S1 is there twice")
 })
+
+test_that("the one set of a file that names another specimen is taken with a message", {
+  one <- function(...) landmark_file("tps", c("LM3=1", "1 2 3", ...))
+  bert <- one("ID=bert", "IMAGE=scan_7.jpg")
+  expect_message(found <- landmarks_for(bert, "anna"), "has landmarks of bert.* taken for anna")
+  expect_equal(unname(found$anna[1, ]), 1:3)
+  expect_silent(landmarks_for(bert, "bert"))
+  expect_silent(landmarks_for(bert, "scan_7"))
+  # A number counts, and names nobody; nor does a file without a name.
+  expect_silent(landmarks_for(one("ID=1"), "anna"))
+  expect_silent(landmarks_for(one(), "anna"))
+  dir <- new_folder_of(anna.tps = c("LM3=1", "1 2 3", "ID=bert"))
+  on.exit(unlink(dir, recursive = TRUE))
+  expect_silent(landmarks_for(file.path(dir, "anna.tps"), "anna"))
+})
