@@ -168,3 +168,24 @@ file_word <- function(name) {
   letters[which(odd)] <- sprintf("%%%02X", vapply(letters[which(odd)], utf8ToInt, 0L))
   paste(letters, collapse = "")
 }
+
+#' Names as names of files of one folder, which no two share on a disk that does not tell capitals
+#' from small letters: where two names differ in nothing else, capitals are as in addresses
+#' @noRd
+file_words <- function(names) {
+  words <- vapply(names, file_word, "", USE.NAMES = FALSE)
+  plain <- tolower(words)
+  twins <- plain %in% plain[duplicated(plain)]
+  words[twins] <- vapply(words[twins], function(word) {
+    letters <- strsplit(word, "")[[1]]
+    # Not those of codes that are there already
+    code <- gregexpr("%[0-9A-F]{2}", word)[[1]]
+    coded <- if (code[1] > 0) outer(0:2, code, `+`)
+    capital <- setdiff(which(letters != tolower(letters)), coded)
+    letters[capital] <- vapply(letters[capital], function(one) {
+      paste0(sprintf("%%%02X", as.integer(charToRaw(enc2utf8(one)))), collapse = "")
+    }, "")
+    paste(letters, collapse = "")
+  }, "", USE.NAMES = FALSE)
+  words
+}

@@ -155,11 +155,12 @@ keep_shape <- function(shape, task) {
   stored <- stored_shape(shape, dir, source)
   about$scan <- if (is.null(source)) "embedded" else source$file
   small <- if (is.null(source)) 1 else "xz"
+  failed <- failure_of_task(task)
   task$file <- keep_apart(task, function(file, new) keep(stored, about, file, small, new))
   row <- index_row(task$file, list(state = "whole", about = about))
   append_index(row, dir)
   note_measures(shape, row, dir)
-  unlink(failure_file(task$file))
+  unlink(c(failed, failure_of_task(task)))
   kept_shape(task, about, c(row$size, row$time))
 }
 
@@ -196,7 +197,7 @@ keep_apart <- function(task, write) {
 #' @noRd
 note_failure <- function(failure, task) {
   if (is.null(task$file)) return(failure)
-  file <- failure_file(task$file)
+  file <- failure_of_task(task)
   about <- c(task[c("key", "mesh", "setting", "words", "scheme")], list(
     id = task$name, failure = unclass(failure)[c("stage", "message", "remedy", "warnings")]
   ))
@@ -210,7 +211,15 @@ note_failure <- function(failure, task) {
   failure
 }
 
-failure_file <- function(file) sub("[.]shape$", ".failure", file)
+#' The file of a task's failure. On disks without capitals the name may be that of another specimen,
+#' measured in another run: then one beside it
+#' @noRd
+failure_of_task <- function(task) {
+  file <- sub("[.]shape$", ".failure", task$file)
+  id <- if (file.exists(file)) open_kept(file)$about$id
+  if (is.null(id) || identical(id, task$name)) return(file)
+  sub("[.]failure$", sprintf("-%s.failure", substr(content_hash(task$name), 1, 8)), file)
+}
 
 fit_job <- function(job, scheme, settings, ear) {
   one <- hear(job_specimen(job), "reading", ear)

@@ -99,13 +99,13 @@ graded_curves <- function(shape) {
   graded <- quality(shape)
   graded <- graded[graded$level == "curves", ]
   grade <- as.character(graded$grade[match(names(curves), graded$part)])
-  Map(function(curve, name, colour) {
+  Map(function(curve, name, word, colour) {
     type <- if (attr(curve, "closed")) "ClosedCurve" else "Curve"
-    file <- file.path("curves", paste0(file_word(name), ".mrk.json"))
+    file <- file.path("curves", paste0(word, ".mrk.json"))
     list(list = mrkjson_list(curve, type, name, sprintf("%s-%d", name, seq_len(nrow(curve))),
                              list(frame = "LPS"), colour),
          node = markups_node(file, name, type, colour))
-  }, curves, names(curves), grade_colours[grade])
+  }, curves, names(curves), file_words(names(curves)), grade_colours[grade])
 }
 
 #' What a scene says of one model

@@ -68,6 +68,12 @@ test_that("names of files are names of their own, in the folder", {
   expect_false(any(grepl("^[.]|[/\\\\:]", words)))
   expect_identical(unname(vapply(words, utils::URLdecode, "")), names)
   expect_identical(file_word("Sch\u00e4del 1.v2"), "Sch\u00e4del 1.v2")
+  # In one folder no two share a name on any disk.
+  names <- c("Rim", "rim", "RIM", "\u00c4 b", "\u00e4 B", "Lip", "A/%", "a/%")
+  words <- file_words(names)
+  expect_equal(anyDuplicated(tolower(words)), 0)
+  expect_identical(words[c(2, 6)], c("rim", "Lip"))
+  expect_identical(enc2utf8(vapply(words, utils::URLdecode, "", USE.NAMES = FALSE)), names)
 })
 
 test_that("fit_shapes() finds the tables of a desk by the names of the scans", {

@@ -15,6 +15,20 @@ test_that("any id has a file's name that gives it back, and no two share one on 
   expect_true(all(nchar(long) <= 160) && !anyDuplicated(long))
 })
 
+test_that("the failure of a specimen is not that of one whose name differs by capitals", {
+  out <- tempfile("out-")
+  dir.create(out)
+  on.exit(unlink(out, recursive = TRUE))
+  # On such a disk the second run finds the first one's file under its own name.
+  task <- function(id) list(key = "k", mesh = "m", setting = "s", name = id,
+                            file = file.path(out, "anna.shape"))
+  for (id in c("Anna", "anna", "anna")) note_failure(new_failure("reading", "no", "yes"), task(id))
+  index <- folder_index(out)
+  expect_setequal(index$id, c("anna", "Anna"))
+  expect_identical(failure_of_task(task("Anna")), file.path(out, "anna.failure"))
+  expect_false(failure_of_task(task("anna")) == failure_of_task(task("Anna")))
+})
+
 kept_example <- function(value = list(a = 1:10, b = stats::rnorm(50))) {
   file <- tempfile(fileext = ".shape")
   keep(value, list(key = "k1", mesh = "m1", id = "\u00e9", warnings = no_warnings()), file)
