@@ -121,13 +121,14 @@
 #'       other tests, the share of the components used;
 #'     * `z`, `effect`, and `lower`, `upper` (95 % bootstrap interval of the effect); `effect` and
 #'       interval are NA for more than two groups;
-#'   * `points`: data frame with a row for each level and point; lengths in the unit of the meshes:
+#'   * `points`: data frame with a row for each level and point, tested or not; lengths in the unit of
+#'     the meshes:
 #'     * `level`, `point`, `x`, `y`, `z` (the mean, of mean size);
 #'     * `distance`: second mean less first along the normal, outward positive; NA without
 #'       triangles;
 #'     * `displacement`: distance between the means;
 #'     * `statistic`, `p_value`, `p_adjusted` (by the greatest statistic over all points of the
-#'       level);
+#'       level). NA at points that are not tested, see the section below;
 #'   * `aligned`, `pca`: lists by level;
 #'   * `group`, `n_perm` (number of regroupings besides the observed one), `exact` (TRUE if these
 #'     are all), `least` (the least p-value that they can give), `components` (number by level),
@@ -142,6 +143,12 @@
 #'   * groups do not match the specimens, or a specimen is in two groups;
 #'   * names of groups differ by blanks or case only;
 #'   * `permutations` are not orders of the specimens.
+#' @section Points without a test: The points of a level with triangles are tested along the normal
+#'   of the mean surface. A point that is in no triangle has no normal: its `distance`, `statistic`
+#'   and p-values are NA, and `print()` counts it ("37 more: no test"). The surface of
+#'   [face_scheme()] has 37 such points of 922, on the mid-line, the nose, the lips and the upper
+#'   face. Their `displacement` is given. Without "points" among the tests of
+#'   [comparison_settings()], `points` is `NULL`.
 #' @section Warnings: of class `crestline_unequal_spread`: variances are pooled, and groups of
 #'   unequal size differ in spread. Of class `crestline_few_permutations`: no p-value can be below
 #'   0.05.

@@ -64,7 +64,8 @@
 #'     * `displacement`: root mean square displacement of the specimens by the term;
 #'     * `statistic`: signed t if there is a `distance`, else F;
 #'     * `p_value`, `p_adjusted` (by the greatest F over all points of the level and term, which
-#'       controls the family-wise error);
+#'       controls the family-wise error). NA at points that are in no triangle of a level with
+#'       triangles, as in [compare_groups()];
 #'   * `parts`: data frame with a row for each level, term, and curve or patch of a `shape_sample`.
 #'     Columns are `level`, `term`, `part`, `points` (number), `statistic` (F of all its points),
 #'     `p_value`, and `p_adjusted` (by the least p over all parts);

@@ -60,7 +60,7 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
   sized <- check_number(sized, "sized", 0, 1)
   if (is_unaligned(aligned)) {
     if (missing(level)) say_level(aligned)
-    aligned <- align(aligned, level)
+    aligned <- aligned_sample(aligned, level)
   }
   check_class(aligned, "aligned", "aligned", "align()")
   weights <- point_weights(weights, as_whole(aligned, weights))
@@ -92,6 +92,15 @@ shape_pca <- function(aligned, weights = aligned$weights, tolerance = 1e-14, com
                    aligned$provenance, "pca", list(tolerance = tolerance)
                  )),
             class = c("shape_pca", "prcomp"))
+}
+
+#' A sample aligned on the way; errors speak of the argument by its name here
+#' @noRd
+aligned_sample <- function(x, level) {
+  tryCatch(align(x, level), crestline_error = function(e) {
+    crestline_abort(gsub("`sample`", "`aligned`", e$problem, fixed = TRUE), e$remedy,
+                    stage = e$stage, id = e$id)
+  })
 }
 
 #' How all co-ordinates follow the scores, those of points of weight 0 too

@@ -110,3 +110,9 @@ test_that("coinciding points of the model lie together on a real face", {
   inside <- startsWith(surface$place, "curves|")
   expect_lt(max(gap[inside], na.rm = TRUE), 0.2)
 })
+
+test_that("37 of its 922 surface points are in no triangle, as the help of compare_groups() says", {
+  triangles <- model_triangles(face_scheme(), FALSE)
+  points <- sum(face_scheme()$points$level == "surface")
+  expect_equal(c(points, sum(!seq_len(points) %in% triangles)), c(922, 37))
+})
