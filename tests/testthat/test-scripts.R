@@ -95,3 +95,13 @@ test_that("a call of a function that is gone, or with other arguments, is found"
   expect_match(found, "does not exist", all = FALSE)
   expect_match(found, "takes 1 arguments, not 3", all = FALSE)
 })
+
+test_that("a vignette that names a script says where it is: not in the installed package", {
+  root <- testthat::test_path("..", "..", "vignettes")
+  skip_if_not(dir.exists(root), "vignettes not here")
+  files <- list.files(root, "[.](Rmd|orig)$", full.names = TRUE)
+  text <- vapply(files, function(file) paste(readLines(file), collapse = " "), "")
+  names <- grepl("bench/|make studies", text)
+  expect_gt(sum(names), 5)
+  expect_equal(basename(files[names & !grepl("repository", text)]), character())
+})
