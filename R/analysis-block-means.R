@@ -1,5 +1,5 @@
-# The units of a design where the alignment is in files: the means of whole blocks, which are held in
-# memory; or specimens less the mean of their block, in files of their own.
+# The units of a design where the alignment is in files: the means of whole blocks, in memory; or
+# specimens less the mean of their block, in files of their own.
 
 #' As [in_design()], of an `aligned_files`
 #'
