@@ -65,7 +65,7 @@ provoked_calls <- function() {
       symmetrise(one), asymmetry(shape, by = "curve"), frechet_mean(ball, matrix(0, 2, 2))
     ),
     "statistics" = alist(
-      align(1), align(sample, "points"), shape_pca(sample), shape_at(pca, 99),
+      align(1), align(sample, "points"), shape_pca(1), shape_at(pca, 99),
       compare_groups(sample, 1:3),
       compare_groups(sample, c(1, 1, 1, 1)), repeatability(list(shape), "a"),
       curve_distance(shape, one),
