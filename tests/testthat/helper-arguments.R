@@ -674,18 +674,21 @@ unlawful_values <- function(kind) {
 # counts as returned.
 try_arguments <- function(calls, functions = names(calls), values = function(fn, argument, kind)
   names(wrong_values())) {
+  # Most of the time of an error is its backtrace, which nobody reads here.
+  rlang::local_options("rlang:::disable_trace_capture" = TRUE)
   wrong <- wrong_values()
   functions <- Filter(function(fn) length(calls[[fn]]$kinds) > 0, functions)
   rows <- lapply(functions, function(fn) {
     args <- calls[[fn]]$args
-    plain <- outcome_of(fn, args, "the name of nothing")
+    # Not worked out where every value is refused by the argument's name.
+    delayedAssign("plain", outcome_of(fn, args, "the name of nothing"))
     lapply(names(calls[[fn]]$kinds), function(argument) {
       kind <- calls[[fn]]$kinds[[argument]]
       tried <- values(fn, argument, kind)
       outcome <- vapply(tried, function(value) {
         args[argument] <- wrong[value]
         outcome <- outcome_of(fn, args, argument)
-        if (outcome == plain) "returned" else outcome
+        if (outcome != "refused" && outcome == plain) "returned" else outcome
       }, "")
       data.frame(fn = rep(fn, length(tried)), argument = rep(argument, length(tried)),
                  value = tried, outcome = outcome, must = tried %in% unlawful_values(kind),

@@ -21,6 +21,8 @@ expect_on_mesh <- function(points, mesh, tolerance = tolerances$rounding) {
 
 # An error of ours that carries its parts and whose text has all the given words.
 expect_crestline_error <- function(object, words = character(), id = NULL) {
+  # Most of the time of an error is its backtrace, which nobody reads here.
+  rlang::local_options("rlang:::disable_trace_capture" = TRUE)
   error <- testthat::expect_error(object, class = "crestline_error")
   text <- conditionMessage(error)
   for (word in words) testthat::expect_match(text, word, fixed = TRUE)

@@ -342,10 +342,12 @@ complete_case <- function() {
 
 # Calls that were not refused by name, as text.
 not_refused <- function(calls, case, wrong) {
+  # Most of the time of an error is its backtrace, which nobody reads here.
+  rlang::local_options("rlang:::disable_trace_capture" = TRUE)
   said <- lapply(names(calls), function(call) {
     lapply(names(wrong), function(name) {
       refused <- tryCatch({
-        suppressWarnings(draw_quietly(calls[[call]](case, wrong[[name]])))
+        suppressWarnings(draw_quietly(calls[[call]](case, wrong[[name]]), 150, 150))
         "answered"
       }, crestline_error = function(e) NULL, error = function(e) conditionMessage(e))
       if (!is.null(refused)) paste(call, name, refused, sep = ": ")

@@ -1,10 +1,15 @@
+# What calls are made with, once for all tests of this file.
+delayedAssign("whole", complete_case())
+
 test_that("what specimen() refuses no function takes as a bare mesh, in the same words", {
-  case <- complete_case()
+  # Most of the time of an error is its backtrace, which nobody reads here.
+  rlang::local_options("rlang:::disable_trace_capture" = TRUE)
+  case <- whole
   meshes <- damaged_meshes(case$specimen$mesh)
   calls <- any_mesh_calls()
   calls <- calls[setdiff(names(calls), c("find_landmarks", "place_landmarks"))]
   said <- function(code) tryCatch({
-    suppressWarnings(draw_quietly(code))
+    suppressWarnings(draw_quietly(code, 150, 150))
     NA
   }, crestline_error = function(e) e$problem)
   for (name in names(meshes)) {
@@ -137,7 +142,7 @@ test_that("keys of many small changes differ", {
 })
 
 test_that("whatever takes something of a mesh and a specimen refuses another, damaged mesh", {
-  case <- complete_case()
+  case <- whole
   wrong <- wrong_specimens(case)
   some <- c(grep("^other", names(wrong), value = TRUE), "mesh exchanged", "index far out",
             "co-ordinate NaN", "twins out of range")
@@ -145,7 +150,7 @@ test_that("whatever takes something of a mesh and a specimen refuses another, da
 })
 
 test_that("the right mesh is taken: of another id, other normals and colours, from a file", {
-  case <- complete_case()
+  case <- whole
   dressed <- case$specimen
   dressed$id <- "someone else"
   dressed$mesh$normals[1:3, ] <- dressed$mesh$normals[1:3, ] + 0.05
@@ -154,20 +159,22 @@ test_that("the right mesh is taken: of another id, other normals and colours, fr
   calls <- own_mesh_calls()
   calls <- calls[setdiff(names(calls), "quality_report")]
   answers <- function(one) {
-    vapply(calls, function(call) !is.null(suppressWarnings(draw_quietly(call(case, one)))), NA)
+    vapply(calls, function(call) {
+      !is.null(suppressWarnings(draw_quietly(call(case, one), 150, 150)))
+    }, NA)
   }
   expect_true(all(answers(kept)))
   expect_true(all(answers(dressed)))
 })
 
 test_that("what was damaged itself is refused with the right mesh", {
-  case <- complete_case()
+  case <- whole
   calls <- lapply(damaged_calls(), function(call) function(case, one) call(case))
   expect_null(not_refused(calls, case, list(own = case$specimen)))
 })
 
 test_that("an error names the mesh that was expected and the one that came", {
-  case <- own_mesh_case()
+  case <- whole
   wide <- stretched_ball(c(1.2, 1, 1.1), "wide")
   expect_crestline_error(slide(case$shape, case$template, specimen = wide),
                          c("the mesh of ball (key", "the mesh of wide (key"), id = "wide")
@@ -178,7 +185,7 @@ test_that("an error names the mesh that was expected and the one that came", {
 })
 
 test_that("a shape of an older version knows its mesh by its specimen, else it is refused", {
-  case <- own_mesh_case()
+  case <- whole
   old <- tampered(case$shape, function(x) {
     x$specimen <- tampered(x$specimen,
                            function(y) y[c("id", "mesh", "landmarks", "report", "geometry")])
@@ -198,7 +205,7 @@ test_that("a shape of an older version knows its mesh by its specimen, else it i
 })
 
 test_that("`shape$specimen <- NULL` and `specimens` stay possible", {
-  case <- own_mesh_case()
+  case <- whole
   small <- case$shape
   small$specimen <- NULL
   whole <- slide(case$shape, case$template)

@@ -9,8 +9,13 @@ repeated <- function(noise, correlation, seed, spacing = 0.05, b = 1) {
     simulate_ridge(0.25, b, spacing, noise, s, jitter = 0.3, correlation = correlation))
 }
 
+# Two scans with smooth noise, and what is measured of them, for several tests.
+smooth <- new.env()
+delayedAssign("scans", repeated(0.01, 2, 7), assign.env = smooth)
+delayedAssign("noise", scan_noise(smooth$scans[[1]], smooth$scans[[2]]), assign.env = smooth)
+
 test_that("the noise of two simulated scans comes back: its size, and how far it is correlated", {
-  measured <- function(correlation, spacing = 0.05, seeds = 1:4) {
+  measured <- function(correlation, spacing = 0.05, seeds = c(2, 4)) {
     found <- vapply(seeds, function(seed) {
       # nearly level: the noise is along z
       scans <- repeated(0.01, correlation, seed, spacing, b = 0.05)
@@ -41,8 +46,8 @@ test_that("noise that is rough beside the mesh's edges is not measured too small
 })
 
 test_that("registration finds the second scan where it was moved to", {
-  scans <- repeated(0.01, 2, 7)
-  there <- scan_noise(scans[[1]], scans[[2]])
+  scans <- smooth$scans
+  there <- smooth$noise
   expect_true(there$converged)
   turn <- rotation_about(c(0.02, -0.03, 0.05))
   moved <- scans[[2]]$mesh
@@ -64,7 +69,7 @@ test_that("registration finds the second scan where it was moved to", {
 })
 
 test_that("the unit and the numbering do not matter", {
-  scans <- repeated(0.01, 2, 3)
+  scans <- smooth$scans
   own <- scan_noise(scans[[1]]$mesh, scans[[2]]$mesh)
   larger <- lapply(scans, function(scan) {
     scan$mesh$vb[1:3, ] <- 1000 * scan$mesh$vb[1:3, ]
@@ -81,8 +86,8 @@ test_that("the unit and the numbering do not matter", {
 })
 
 test_that("known noise takes the noise factor's place, and widens the kernel if smooth", {
-  scans <- repeated(0.01, 2, 5)
-  noise <- scan_noise(scans[[1]], scans[[2]])
+  scans <- smooth$scans
+  noise <- smooth$noise
   fit <- function(settings) {
     suppressWarnings(ridge_curve(scans[[1]], "from", "to", "ridge", 0.25, 0.4, 21,
                                  settings = settings))
@@ -169,7 +174,6 @@ test_that("scans that cannot be compared are refused", {
 })
 
 test_that("noise prints its parts", {
-  scans <- repeated(0.01, 2, 5)
-  expect_output(print(scan_noise(scans[[1]], scans[[2]])),
+  expect_output(print(smooth$noise),
                 "standard deviation .*independent .*correlated over .*converged")
 })
