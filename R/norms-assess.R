@@ -49,7 +49,9 @@
 #'     `z_asymmetry` (NA on the other side), `healed` (distance along the normal that healing took
 #'     away, in the unit of the mesh), `healed_sd`, `tangential` (distance along the surface from
 #'     what is expected, in the unit of the mesh), `d2` (the same squared, against what varies
-#'     there: 95 % of faces are below 6, with a large norm), `p_tangential`, `assessed`;
+#'     there: 95 % of faces are below 6, with a large norm), `p_tangential`, `assessed` (FALSE: the
+#'     point is missing in the scan, and its place is made up by its surroundings), `se` (standard
+#'     error of a co-ordinate, in the unit of the mesh; NA where unknown), `part` (patch);
 #'   * `verdicts`: data frame with a row for each family: `family`, `statistic`, `p`, `p_holm`,
 #'     `verdict` ("real", "not distinguishable", "not assessable"), `where`;
 #'   * `findings`: data frame with a row for each disc that was healed: `point`, `radius`, `both`
@@ -232,7 +234,8 @@ assessed_points <- function(norms, patient, healed, other, age, sex) {
     healed = row_products(took, field$normal) / patient$scale,
     healed_sd = sqrt(variance_along(field$normal, healed$variance * patient$spread^2)) /
       patient$scale, tangential = as.vector(tangential$off) / patient$scale,
-    d2 = as.vector(tangential$d2), p_tangential = as.vector(tangential$p), assessed = !lost
+    d2 = as.vector(tangential$d2), p_tangential = as.vector(tangential$p), assessed = !lost,
+    se = patient$se / patient$scale, part = norms$points$part
   )
   columns <- c("distance", "z_map", "se_scan", "se_norm", "z_scan", "z_asymmetry", "tangential",
                "d2", "p_tangential")
@@ -310,24 +313,29 @@ print.assessment <- function(x, most = 6, ...) {
     cat(sprintf("<assessment> %s, %s%.3g years, against %s%s (%.3g effective at this age)\n", x$id,
                 who, x$age, if (length(x$norms$name)) paste0(x$norms$name, ", ") else "",
                 amount(x$norms$n, "face"), x$effective))
-    cat("  no diagnosis: what is rare in the norm's sample is not therefore ill\n")
+    cat("  no diagnosis: what is rare in the norm's sample is not therefore ill\n",
+        "  +- are standard errors\n", sep = "")
     rows <- x$verdicts
     cat(sprintf("  %-13s %-20s p %.3g (Holm %.3g)%s\n", rows$family, rows$verdict, rows$p,
                 rows$p_holm, ifelse(is.na(rows$where), "", paste0(", ", rows$where))), sep = "")
     values <- x$values[!grepl("^component ", x$values$name) & !is.na(x$values$z), ]
     values <- values[c(1, 1 + order(-abs(values$z[-1]))), ]
     for (i in seq_len(min(most, nrow(values)))) cat("  ", value_words(values[i, ]), "\n", sep = "")
-    for (i in seq_len(nrow(x$findings))) cat("  ", finding_words(x$findings[i, ]), "\n", sep = "")
+    for (i in seq_len(nrow(x$findings))) {
+      cat("  ", finding_words(x$findings[i, ], x$unit), "\n", sep = "")
+    }
     if (!isTRUE(x$finished)) cat("  the rest of the face still differs after healing\n")
     cat("  errors of the scan: ", x$errors, if (x$errors == "estimated") {
       sprintf(" from its roughness, %.2g of the norm's", x$rough)
-    }, "\n", sep = "")
+    }, if (wider_scale(x)) "; p are on a wider scale, as they are larger than the norm's", "\n",
+    sep = "")
     cat(sprintf("  along the surface %.2g %% of points are beyond their 95 %% (not judged)\n",
                 100 * mean(x$points$p_tangential < 0.05, na.rm = TRUE)))
     lost <- c(sum(!x$points$assessed), sum(!is.na(x$values$reason)))
     if (any(lost > 0)) {
       cat(sprintf("  not assessed, as points are missing: %s, %s\n",
                   amount(lost[1], "surface point"), amount(lost[2], "value")))
+      if (lost[1]) cat("    of ", lost_words(x$points$part, !x$points$assessed), "\n", sep = "")
     }
     invisible(x)
   })
@@ -335,14 +343,38 @@ print.assessment <- function(x, most = 6, ...) {
 
 value_words <- function(row) {
   scan <- if (is.na(row$se_scan)) "unknown" else sprintf("%.2g", row$se_scan)
-  sprintf("%s %.4g (expected %.4g): z %.2f +- %s (scan) +- %.2g (norm), centile %.3g", row$name,
-          row$value, row$expected, row$z, scan, row$se_norm, row$centile)
+  sprintf("%s %.4g%s (expected %.4g): z %.2f +- %s (scan) +- %.2g (norm), centile %.3g", row$name,
+          row$value, if (row$unit == "1") "" else paste0(" ", row$unit), row$expected, row$z, scan,
+          row$se_norm, row$centile)
 }
 
-finding_words <- function(row) {
-  sprintf("found at %s%s: height %.2g +- %.2g, radius %.3g, volume %.3g (z %.2g)", row$point,
-          if (row$both) " (both sides)" else "", row$height, row$sd, row$radius, row$volume,
+finding_words <- function(row, unit) {
+  sprintf("found at %s%s: height %.2g +- %.2g %s, radius %.3g, volume %.3g (z %.2g)", row$point,
+          if (row$both) " (both sides)" else "", row$height, row$sd, unit, row$radius, row$volume,
           row$z)
+}
+
+#' Whether a larger error of the scan changes a z that is shown
+#' @param worth Change of z that is worth saying: half of a tenth.
+#' @noRd
+wider_scale <- function(x, worth = 0.05) {
+  any(abs(x$values$z) - abs(x$values$z_widened) > worth, na.rm = TRUE) ||
+    (x$errors == "estimated" && x$rough > 1 + worth)
+}
+
+#' Which parts lost how much, the largest loss first
+#' @param part Of each point; `lost`, of each.
+#' @param most Number of parts that are named.
+#' @noRd
+lost_words <- function(part, lost, most = 6) {
+  count <- tapply(lost, part, sum)
+  whole <- tapply(lost, part, length)
+  named <- names(count)[order(-count)]
+  named <- named[count[named] > 0]
+  first <- utils::head(named, most)
+  paste(c(sprintf("%s (%d of %d)", first, count[first], whole[first]),
+          if (length(named) > most) amount(length(named) - most, "more part")),
+        collapse = ", ")
 }
 
 #' @export

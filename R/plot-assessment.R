@@ -3,7 +3,8 @@
 #' Plot a face against its norms
 #'
 #' Draws the face of an assessment, coloured by one of its maps. Places beyond the limit of the map
-#' are outlined.
+#' are outlined. The surface is grey where points are missing in the scan; it is made up there by its
+#' surroundings.
 #'
 #' @param x An `assessment`, as of [assess()].
 #' @param what "map": z of each point; "scan": z of the scan, the radius that gives most; "healed":
@@ -58,7 +59,8 @@ plot.assessment <- function(x, what = c("map", "scan", "healed", "distance", "as
              healed = "taken away by healing", distance = "distance from the expected face",
              asymmetry = "asymmetry against the norm's: z")[[what]]
   if (is.null(main)) main <- sprintf("%s\n%s", x$id, title)
-  unit <- if (what %in% c("healed", "distance")) "unit of the mesh" else "z"
+  unit <- if (!what %in% c("healed", "distance")) "z" else
+    if (x$unit == "unit") "unit of the mesh" else x$unit
   look <- list(significance = 0.5, limits = limits, palette = palette, length_unit = unit)
   scene <- draw_map(points, value, TRUE, x$triangles, main, list(look = look, more = list(...)),
                     engine, view, legend)

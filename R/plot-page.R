@@ -26,14 +26,18 @@
 #'   here), `curvature`, `radius`, `view`, `band`. Settings of [widget_settings()]. `length_unit`:
 #'   name of the unit of lengths, such as "mm". `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
-#' @section Page of an assessment: The person, the norm and the errors; the verdicts; pictures of
-#'   the face, of both maps and of the expected shape; the places that do not fit; growth charts of
-#'   size and of the measurements with the largest z; all measurements with z, centile and both
-#'   errors; what could not be assessed; limits; where it came from. Lengths are in mm for a norm of
-#'   [face_scheme()]. The page gives no diagnosis.
-#' @section Page of two visits: The change along the normals as a picture, the curves, patches and
-#'   measurements that changed, their standard errors and smallest detectable changes, and the
-#'   limits.
+#' @section Page of an assessment: The person, the norm and the error of the scan; the answers to six
+#'   questions ("differs by more than chance", "no difference shown", "could not be assessed"), with
+#'   the place, direction and height of what was found; pictures of the face, of both maps and of
+#'   the expected shape; the places that do not fit, with 95 % intervals; growth charts of size and
+#'   of the measurements with the largest z; all measurements with z, centile and both errors; what
+#'   could not be assessed, by part; limits; where it came from. Missing places are holes in the
+#'   pictures. Lengths are in mm for a norm of [face_scheme()]. The page gives no diagnosis.
+#' @section Page of two visits: What changed, where and by how much, and from what size on a change
+#'   could have been seen; what could not be compared, by part; the change along the normals as a
+#'   picture, whose colours are full from at least six standard errors on; all curves, patches and
+#'   measurements with their growth (if it is subtracted), change, standard error and smallest
+#'   detectable change; the limits. Without any errors the page has the changes alone.
 #' @section Errors: of class `crestline_error`: the file has another ending, or its folder does not
 #'   exist; the curves belong to another mesh; an argument is given that the page has not.
 #' @template glossary
