@@ -11,7 +11,7 @@
 #'   the distance that healing took away; "distance": the distance from the expected face; both in
 #'   the unit of the mesh; "asymmetry": z of the asymmetry scan, on one side.
 #' @param limits Two numbers: the values of the first and the last colour. `NULL`: symmetric about
-#'   0, as far as the largest value.
+#'   0, as far as the largest value, and of a z at least to the limit of the map.
 #' @param palette Colours from the lowest to the highest value.
 #' @param view As in [plot.shape()].
 #' @param main Title; `NULL`: one that names the map.
@@ -53,6 +53,9 @@ plot.assessment <- function(x, what = c("map", "scan", "healed", "distance", "as
                     stage = "picture", id = x$id, call = NULL)
   }
   most <- if (what %in% names(x$limits)) x$limits[[what]] else Inf
+  if (is.null(limits) && is.finite(most)) {
+    limits <- c(-1, 1) * max(abs(value), most, na.rm = TRUE)
+  }
   # The outline is where p_adjusted crosses 0.5: 0.25 beyond the limit, 1 elsewhere.
   points$p_adjusted <- ifelse(!is.na(value) & abs(value) > most, 0.25, 1)
   title <- c(map = "z of each point", scan = "does each place fit the rest of the face: z",

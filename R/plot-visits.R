@@ -10,7 +10,8 @@
 #' @param what "change": along the normal, outward positive, in the unit of the mesh; "score":
 #'   change over its standard error.
 #' @param limits Two numbers: the values of the first and the last colour. `NULL`: symmetric about
-#'   0, as far as the largest value.
+#'   0, as far as the largest value, and at least to the family-wise limit (of a change: that many
+#'   median standard errors), so that errors alone do not fill the scale.
 #' @param palette Colours from the lowest to the highest value.
 #' @param view As in [plot.shape()]; "front" is the front of the first visit.
 #' @param main Title; `NULL`: one that names the visits.
@@ -45,6 +46,10 @@ plot.visit_comparison <- function(x, what = c("change", "score"), limits = NULL,
                     if (what != "score") "Compare visits whose scheme has a surface." else
                       "Give compare_visits() an `error`, or plot the change.",
                     stage = "picture", id = x$ids[2], call = NULL)
+  }
+  if (is.null(limits)) {
+    least <- x$limit * if (what == "score") 1 else stats::median(points$se, na.rm = TRUE)
+    limits <- c(-1, 1) * max(abs(points[[what]]), least, na.rm = TRUE)
   }
   # The outline is where p_adjusted crosses 0.5: 0.25 beyond the limit, 1 elsewhere
   points$p_adjusted <- ifelse(points$called, 0.25, 1)

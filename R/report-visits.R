@@ -54,8 +54,9 @@ visit_answers <- function(x) {
   head <- tags$tr(lapply(c("question", "answer", "most at"), tags$th))
   tags$section(tags$h2("In short"), page_table(head, rows), unseen_warning(x), tags$p(
     class = "note",
-    sprintf("Of each question, nothing is called with probability %g if nothing changed.",
-            1 - x$alpha), missed_words(x), "Left and right are the person's own."
+    sprintf("Of each question, nothing is called with probability %g if nothing changed and the",
+            1 - x$alpha),
+    "errors are right.", missed_words(x), "Left and right are the person's own."
   ))
 }
 
@@ -229,7 +230,8 @@ visit_limits <- function(x) {
     "This page compares two scans of one person. It gives no diagnosis.",
     "Growth, weight, expression and posture change a face as a treatment does.",
     paste("The errors are those that were given. Errors that both scans share, such as one wrong",
-          "landmark, are not in them."),
+          "landmark, are not in them. Errors from a few repeated scans are uncertain themselves:",
+          "changes are then called more often."),
     if (length(x$growth)) {
       "One person's growth differs from the norm's. By how much is not known, nor in the errors."
     } else "Growth between the visits was not subtracted."

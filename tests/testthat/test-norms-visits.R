@@ -160,7 +160,7 @@ test_that("points that are missing are left out of picture and page, which say s
   on.exit(unlink(file))
   write_page(found, file)
   expect_match(paste(readLines(file, encoding = "UTF-8"), collapse = " "),
-               sprintf("8 of %d points of the surface are missing", nrow(own)))
+               sprintf("8 missing at one of the visits of %d points", nrow(own)))
   grDevices::pdf(NULL)
   on.exit(grDevices::dev.off(), add = TRUE)
   expect_identical(plot(found, engine = "picture"), found)
