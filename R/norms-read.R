@@ -4,22 +4,16 @@
 #' @export
 read_norms <- function(dir) {
   check_given()
-  if (!is_path(dir) || !dir.exists(dir)) {
-    crestline_abort(sprintf("`dir`: there is no folder %s.", describe_value(dir)),
-                    sprintf("Check the path; the working directory is %s.", getwd()),
-                    stage = "reading", call = NULL)
-  }
+  check_norm_dir(dir)
   header <- read_norm_header(dir)
   tables <- lapply(stats::setNames(nm = names(header$tables)), function(file) {
     read_norm_table(file.path(dir, file), header$tables[[file]])
   })
   names(tables) <- sub("[.]csv$", "", names(tables))
-  norms <- tryCatch(norms_from_tables(header, tables), error = function(e) {
+  norms <- tryCatch(checked_norms(header, tables), error = function(e) {
     if (inherits(e, "crestline_error")) rlang::cnd_signal(e)
     refuse_norm("norms.json", "its tables do not fit each other")
   })
-  check_norm_numbers(norms)
-  validate_shape_norms(norms)
   for (name in intersect(c("surface", "asymmetry"), names(Filter(Negate(is.null), norms)))) {
     tryCatch(prepared_field(norms, name), error = function(e) {
       refuse_norm("norms.json", "its kernel is not positive definite")
@@ -28,9 +22,50 @@ read_norms <- function(dir) {
   norms
 }
 
-refuse_norm <- function(file, problem, remedy = "Copy the whole folder again.") {
-  crestline_abort(sprintf("%s cannot be read as norms: %s.", basename(file), problem), remedy,
-                  stage = "reading", class = "crestline_norm_file", call = NULL)
+#' A norm whose tables were compared with its header and with each other
+#' @noRd
+checked_norms <- function(header, tables) {
+  columns <- norm_columns(header)
+  lacking <- setdiff(names(columns), names(tables))
+  strange <- setdiff(names(tables), c(names(columns), "measurements"))
+  if (length(lacking)) refuse_norm("norms.json", sprintf("it names no %s.csv", lacking[1]))
+  if (length(strange)) refuse_norm("norms.json", sprintf("no norm has a %s.csv", strange[1]))
+  for (name in names(tables)) {
+    tables[[name]] <- typed_norm_table(tables[[name]], name, columns[[name]])
+  }
+  check_norm_rows(header, tables)
+  norms <- norms_from_tables(header, tables)
+  check_norm_numbers(norms)
+  validate_shape_norms(norms)
+  check_norm_agreement(norms, header)
+  norms
+}
+
+check_norm_dir <- function(dir) {
+  if (is_path(dir) && dir.exists(dir)) return(invisible())
+  file <- is_path(dir) && file.exists(dir)
+  crestline_abort(
+    sprintf("`dir`: %s %s.", if (file) "this is no folder:" else "there is no folder",
+            describe_value(dir)),
+    if (file && grepl("[.]zip$", dir, ignore.case = TRUE)) "Unpack it, and give the folder." else
+      if (file) "Give the folder that it is in." else
+        sprintf("Check the path; the working directory is %s.", getwd()),
+    stage = "reading", call = NULL
+  )
+}
+
+#' What is wrong with a file whose checksum does not fit
+#' @noRd
+refuse_changed <- function(file) {
+  bytes <- readBin(file, "raw", file.size(file))
+  if (identical(utils::head(bytes, 3), as.raw(c(0xef, 0xbb, 0xbf)))) {
+    refuse_norm(file, "a byte order mark was put before it", "Copy the folder without changes.")
+  }
+  if (any(bytes == as.raw(13))) {
+    refuse_norm(file, "its line ends were changed to those of Windows",
+                "Copy the folder as a zip, or as binary files.")
+  }
+  refuse_norm(file, "it was changed: its checksum does not fit")
 }
 
 read_norm_header <- function(dir) {
@@ -61,11 +96,16 @@ read_norm_header <- function(dir) {
 read_norm_table <- function(file, checksum) {
   if (!grepl("^[a-z-]+[.]csv$", basename(file))) refuse_norm(file, "it has a strange name")
   if (!file.exists(file)) refuse_norm(file, "it is missing")
-  if (!identical(cli::hash_file_sha256(file), checksum)) {
-    refuse_norm(file, "it was changed: its checksum does not fit")
-  }
-  utils::read.csv(file, encoding = "UTF-8", na.strings = "", stringsAsFactors = FALSE,
-                  check.names = FALSE)
+  if (!identical(cli::hash_file_sha256(file), checksum)) refuse_changed(file)
+  # A row that is too long would move all columns, one that is too short end with empty cells.
+  tryCatch(
+    utils::read.table(file, header = TRUE, sep = ",", quote = "\"", comment.char = "",
+                      fill = FALSE, encoding = "UTF-8", na.strings = "", colClasses = "character",
+                      check.names = FALSE, row.names = NULL),
+    error = function(e) {
+      refuse_norm(file, "its rows have different numbers of cells, or it is empty")
+    }
+  )
 }
 
 #' @return A `shape_norms`.
@@ -93,17 +133,14 @@ norms_from_tables <- function(header, tables) {
          values = own$values, kernel = own$kernel, mirrored = own$mirrored, ranges = own$ranges,
          partner = if (name == "surface" && any(points$side)) points$partner,
          scan = list(radii = own$radii, both = own$both,
-                     s = unname(as.matrix(tables[[paste0("scan-", name)]])), by_age = by_age, size = own$age_splines, quantiles = own$quantiles),
+                     s = unname(as.matrix(tables[[paste0("scan-", name)]])), by_age = by_age,
+                     size = own$age_splines, quantiles = own$quantiles),
          rough = own$rough, healing = if (name == "surface") tables$healing)
   }
-  measurements <- tables$measurements
-  table <- tables$table
-  skew <- paste0("skew_", 1:4)
-  table[skew] <- lapply(table[skew], as.numeric)
   structure(
     list(points = points, triangles = unname(t(as.matrix(tables$triangles))), n = header$n,
          ages = tables$ages, counts = tables$counts, names = unlist(header$names),
-         measurements = measurements, table = table,
+         measurements = tables$measurements, table = tables$table,
          values = splines_from_tables("values", header$splines$values, 1e-6, 0, tables, sexes),
          surface = field("surface"), asymmetry = field("asymmetry"), limits = header$limits,
          privacy = header$privacy, settings = settings, scheme = header$scheme,

@@ -93,6 +93,27 @@ test_that("rules of privacy are kept", {
   expect_equal(figures$ratio, sqrt(c(14 / 77, 41 / 45)), tolerance = 1e-3)
 })
 
+test_that("a person who is in a sample many times is seen", {
+  y <- with_seed(1, matrix(stats::rnorm(40 * 90), 40))
+  expect_gt(closest_faces(y)$ratio, 0.5)
+  expect_null(check_copies(closest_faces(y), paste0("f", 1:40)))
+  copied <- y[c(1:40, rep(7, 100), 9), ] + with_seed(2, stats::rnorm(141 * 90, 0, 0.05))
+  found <- closest_faces(copied)
+  expect_lt(found$ratio, 0.1)
+  expect_crestline_error(check_copies(found, paste0("f", 1:141)), c("copies", "f41", "and 91 more"))
+  # The same in another unit
+  expect_equal(closest_faces(1e8 * copied)$ratio, found$ratio)
+})
+
+test_that("ages between those of the faces count in the rule of ages", {
+  norms <- small_norms()
+  norms$ages[c("from", "to")] <- list(9, 11)
+  least <- min(effective_faces(norms, seq(9, 11, 0.1), rep("female", 21)),
+               effective_faces(norms, seq(9, 11, 0.1), rep("male", 21)))
+  expect_null(check_shared_ages(norms, least - 0.01))
+  expect_crestline_error(check_shared_ages(norms, least + 0.01), c("the mean is decided by", "gap"))
+})
+
 test_that("what is refused for privacy says what helps", {
   norms <- small_norms()
   norms$privacy <- list(ratio = 0.94, auc = 0.58, least = 12)

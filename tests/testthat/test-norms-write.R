@@ -97,3 +97,43 @@ test_that("pictures of an assessment show its maps", {
   }
   expect_crestline_error(plot(found, "photograph"), "`what`")
 })
+
+test_that("a file that was changed on its way says how", {
+  dir <- written()
+  path <- file.path(dir, "ages.csv")
+  lines <- readLines(path)
+  writeLines(lines, path, sep = "\r\n")
+  expect_crestline_error(read_norms(dir), c("ages.csv", "Windows", "zip"))
+  writeBin(c(as.raw(c(0xef, 0xbb, 0xbf)), charToRaw(paste0(lines, "\n", collapse = ""))), path)
+  expect_crestline_error(read_norms(dir), c("ages.csv", "byte order mark"))
+  unlink(path)
+  dir.create(path)
+  expect_crestline_error(write_norms(small_norms(), dir), "ages.csv")
+  dir <- written()
+  path <- file.path(dir, "norms.json")
+  zip <- tempfile(fileext = ".zip")
+  writeLines("PK", zip)
+  expect_crestline_error(read_norms(zip), c("no folder", "Unpack"))
+  expect_crestline_error(read_norms(path), c("norms.json", "folder that it is in"))
+})
+
+test_that("share = TRUE believes no number that it can compute", {
+  norms <- small_norms()
+  norms$privacy <- list(ratio = 1, auc = 0.5, least = 50, closest = 0.4)
+  one <- norms
+  one$surface$values <- one$surface$values[1]
+  one$values$groups$female$lambda[1] <- 1e-4
+  share <- function(x) write_norms(x, tempfile(), share = TRUE)
+  # Ages at which few faces count, whatever `privacy` says
+  expect_crestline_error(suppressMessages(share(one)), c("the mean is decided by", "cuts ages"))
+  many <- norms
+  many$n <- 5000L
+  expect_crestline_error(share(many), c("`norms`", "fitted to 120"))
+  many$counts$n <- many$counts$n * 50L
+  many$n <- 6000L
+  expect_crestline_error(share(many), "fitted to 120")
+  one$privacy$closest <- 0.1
+  expect_crestline_error(share(one), c("copies", "one face of each person"))
+  one$privacy$closest <- NULL
+  expect_crestline_error(share(one), "Fit it again")
+})
