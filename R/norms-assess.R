@@ -39,10 +39,11 @@
 #' @param alpha Level of the verdicts.
 #' @return Object of class `assessment`, a list:
 #'   * `values`: data frame with a row for size, each measurement and each component: `name`,
-#'     `value` and `expected` in `unit` ("mm", "mm^2", "mm^3" for [face_scheme()], otherwise "unit"
-#'     and its powers; "degrees"; "1": none), `lower` and `upper` (value -+ 1.96 standard errors of
-#'     the scan, NA where unknown), `z`, `se_scan`, `se_norm` (standard errors of z), `centile`,
-#'     `z_widened` (on the wider scale), `reason` (why it was not assessed; NA otherwise);
+#'     `value` (less the `bias` of [measurements()]) and `expected` in `unit` ("mm", "mm^2", "mm^3"
+#'     for [face_scheme()], otherwise "unit" and its powers; "degrees"; "1": none), `lower` and
+#'     `upper` (value -+ 1.96 standard errors of the scan, NA where unknown), `z`, `se_scan`,
+#'     `se_norm` (standard errors of z), `centile`, `z_widened` (on the wider scale), `reason` (why
+#'     it was not assessed; NA otherwise);
 #'   * `points`: data frame with a row for each surface point: `point`, `x`, `y`, `z` (laid on the
 #'     norm), `distance` (along the normal from what is expected at this age and sex, in the unit
 #'     of the mesh), `z_map`, `se_scan`, `se_norm`, `z_scan` (the radius that gives most),
@@ -200,7 +201,7 @@ assessed_values <- function(shape, norms, patient, age, sex, error) {
              upper = back(y + 1.96 * se), z = as.vector(z), se_scan = se / as.vector(expected$sd),
              se_norm = as.vector(norm_error(z, expected)), centile = 100 * stats::pnorm(z[1, ]),
              z_widened = as.vector(widened),
-             reason = ifelse(is.na(y), "a point that it needs is missing", NA_character_))
+             reason = c(own$reason, rep(NA_character_, count)))
 }
 
 #' z of every surface point, in both maps

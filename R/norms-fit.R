@@ -134,7 +134,8 @@ print.norm_settings <- function(x, ...) {
 #'     by sex; `n`;
 #'   * `table`: data frame of size, measurements and components: `name`, `transform` ("log" or "as
 #'     is"), `se_norm` (of the transformed value), `skew_1` to `skew_4` (of the transformation of
-#'     z, NA for none);
+#'     z, NA for none), `bias_norm` (mean of what errors of points added to the transformed values
+#'     and was taken off, see [measurements()]; NA where unknown);
 #'   * `values`, `surface`, `asymmetry`: the fitted splines and fields;
 #'   * `limits`: quantiles of held-out faces (`levels`), by family;
 #'   * `privacy`: `ratio`, `auc`, `least` (smallest effective number at the ages of the sample, with
@@ -194,7 +195,7 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   templates <- unique(lapply(unname(sample$shapes), function(x) x$provenance$template$hash))
   if (length(templates) == 1) norms$scheme$template <- templates[[1]]
   norms$about <- c(about, made_with())
-  norms$table$se_norm <- c(value_errors(sample, norms), rep(0, plan$components))
+  norms$table <- with_value_errors(norms, sample)
   if (!share) return(norms)
   norms <- keep_shared_ages(norms, people)
   check_shared(norms, privacy_figures(held$privacy))

@@ -2,18 +2,19 @@
 
 #' The growth of a face between two ages, if it keeps its z
 #'
-#' @param shape The first visit.
+#' @param known Of [visits_with_errors()]; the first visit grows.
 #' @param ages Two ages; `sex` as checked.
 #' @return List: `move` (matrix by row of the points, in the frame of the shape: points that are no
 #'   surface points move as the nearest one), `se` (of the move along the normals, by the norm),
 #'   `values` (data frame `name`, `factor`, `plus`, `se`: a measurement becomes factor x + plus),
 #'   `words`.
 #' @noRd
-expected_growth <- function(shape, norms, ages, sex) {
+expected_growth <- function(known, norms, ages, sex) {
+  shape <- known$before
   first <- patient_surface(shape, norms, ages[1], sex)
   later <- expected_columns(norms$surface$columns, ages[2], sex)
   y <- later$mean + (first$y - first$expected$mean) * later$sd / first$expected$sd
-  values <- own_errors(shape, norms, draws = 0)$value
+  values <- own_errors(shape, norms, known$error, together = known$together)$value
   grown <- grown_values(norms, values, ages, sex)
   before <- first$xyz
   after <- matrix(y, ncol = 3)
@@ -66,19 +67,19 @@ growth_error <- function(fit, ages, sex, factor = 1.25) {
 }
 
 #' Expected growth of measurements and its standard error, NA where the norm has none
-#' @param before Data frame of [measurements()].
+#' @param names Of measurements.
 #' @noRd
-measured_growth <- function(before, growth) {
-  row <- match(before$measurement, growth$values$name)
-  own <- growth$values[row, ]
+measured_growth <- function(names, growth) {
+  own <- growth$values[match(names, growth$values$name), ]
   logs <- own$transform == "log"
-  later <- ifelse(logs, exp(own$later), own$later)
-  data.frame(growth = later - before$value, se = own$se * ifelse(logs, later, 1))
+  back <- function(x) ifelse(logs, exp(x), x)
+  later <- back(own$later)
+  data.frame(growth = later - back(own$now), se = own$se * ifelse(logs, later, 1))
 }
 
 #' What growth is subtracted, by the arguments of [compare_visits()]; NULL for none
 #' @noRd
-checked_growth <- function(before, norms, ages, sex) {
+checked_growth <- function(known, norms, ages, sex) {
   if (is.null(norms)) {
     if (!is.null(ages) || !is.null(sex)) {
       crestline_abort("`ages` and `sex` are of the growth that `norms` expect.",
@@ -88,8 +89,12 @@ checked_growth <- function(before, norms, ages, sex) {
   }
   check_class(norms, "shape_norms", "norms", "fit_norms() or read_norms()")
   ages <- check_numbers(ages, "ages", 2, lower = 0)
+  if (ages[1] > ages[2]) {
+    refuse_argument("ages", ages, "Give the first visit as `before`, its age first.",
+                    "falling: the visits look exchanged")
+  }
   sex <- check_norm_sex(sex, norms)
-  check_norm_scheme(before, norms)
-  for (age in ages) check_norm_age(age, sex, norms, before$id)
-  expected_growth(before, norms, ages, sex)
+  check_norm_scheme(known$before, norms)
+  for (age in ages) check_norm_age(age, sex, norms, known$before$id)
+  expected_growth(known, norms, ages, sex)
 }

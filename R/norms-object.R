@@ -136,38 +136,6 @@ straightened <- function(z, skew) {
   z
 }
 
-#' Root mean square standard errors of log size and of measurements, on their scales, by some faces
-#' @param most Number of faces that are measured with their errors.
-#' @noRd
-value_errors <- function(sample, norms, most = 20) {
-  chosen <- unique(round(seq(1, length(sample), length.out = min(most, length(sample)))))
-  each <- lapply(sample$shapes[chosen], function(shape) own_errors(shape, norms)$se)
-  squares <- rowMeans(do.call(cbind, each)^2, na.rm = TRUE)
-  signif(ifelse(is.finite(squares), sqrt(squares), 0), 4)
-}
-
-#' Log size and measurements of a shape with their standard errors, on the norm's scales
-#' @return List: `value`, `se` (NA where unknown).
-#' @noRd
-own_errors <- function(shape, norms, error = NULL, draws = 100) {
-  points <- shape$points[shape$points$level == "surface", ]
-  row <- match(norms$points$point, paste(points$part, points$point))
-  xyz <- as.matrix(points[row, c("x", "y", "z")])
-  laid <- lay_face(xyz, as.matrix(norms$points[c("x", "y", "z")]))
-  off <- sweep(xyz, 2, colMeans(xyz, na.rm = TRUE))
-  # Of log size: each point moves it by its distance from the centre over the size's square.
-  known <- !is.na(points$se[row])
-  se <- sqrt(sum((points$se[row]^2 * rowSums(off^2))[known])) / laid$size^2
-  if (mean(known) < 0.5) se <- NA_real_
-  found <- list(value = log(laid$size), se = se)
-  if (!NROW(norms$measurements)) return(found)
-  own <- measurements(shape, norms$measurements, error = error, draws = draws)
-  logs <- norms$table$transform[1 + seq_len(nrow(own))] == "log"
-  positive <- !is.na(own$value) & own$value > 0
-  scaled <- ifelse(logs, ifelse(positive, log(pmax(own$value, 1e-300)), NA), own$value)
-  list(value = c(found$value, scaled), se = c(se, ifelse(logs, own$se / own$value, own$se)))
-}
-
 #' The rule of components
 #' @noRd
 check_shared_components <- function(plan, n) {

@@ -107,7 +107,8 @@ rounded_points <- function(xyz, unit) {
 #'
 #' @param plan Of [measurement_plan()], or NULL.
 #' @return List: `points` (as of [norm_points()], with `se_norm`), `triangles`, `y` (n x 3k), `off`
-#'   (n x 3l: the asymmetric part on the side), `values` (n x m: log size and measurements),
+#'   (n x 3l: the asymmetric part on the side), `values` (n x m: log size and measurements, less
+#'   what errors add to them),
 #'   `estimated`.
 #' @noRd
 norm_data <- function(sample, plan, unit) {
@@ -117,20 +118,21 @@ norm_data <- function(sample, plan, unit) {
   n <- dim(reference$coords)[3]
   y <- matrix(0, n, 3 * nrow(xyz))
   scale <- size <- numeric(n)
+  surface <- which(sample$template$scheme$points$level == "surface")
   paired <- sum(points$side) > 3
   off <- if (paired) matrix(0, n, 3 * sum(points$side))
   for (i in seq_len(n)) {
     laid <- lay_face(reference$coords[, , i], xyz)
     y[i, ] <- laid$laid
     scale[i] <- laid$scale
-    size[i] <- laid$size
+    own <- sample$shapes[[i]]$points[surface, ]
+    size[i] <- unbiased_log_size(laid$size, own$se[match(points$point, paste(own$part, own$point))])
     if (paired) off[i, ] <- asymmetric_part(laid$laid, points$partner)[points$side, ]
   }
   points$se_norm <- sample_errors(sample, points$point, scale)
-  measured <- if (length(plan)) t(measure_places(plan, places_array(sample)))
-  colnames(measured) <- names(plan)
+  measured <- if (length(plan)) unbiased_values(unname(sample$shapes), plan)
   list(points = points, triangles = reference$triangles, y = y, off = off,
-       values = cbind(size = log(size), measured), estimated = reference$estimated)
+       values = cbind(size = size, measured), estimated = reference$estimated)
 }
 
 #' k x 3 x n: every place of the shapes of a sample once

@@ -26,14 +26,15 @@
 #'
 #' @param before,after Shapes of one scheme, slid against one template ([slide()]).
 #' @param error A number: standard error of a co-ordinate of a point at one visit, in the unit of
-#'   the mesh. It is used for points without `se`; [repeatability()] and [scan_noise()] measure it.
-#'   Or errors from repeated scans, see [visit_errors()]: they replace `se` of all points, and
-#'   `range` and `share` of the settings. `NULL`: points without `se` are not assessed.
+#'   the mesh. It is used for points without `se`, or with 0; [repeatability()] and [scan_noise()]
+#'   measure it. Or errors from repeated scans, see [visit_errors()]: they replace `se` of all
+#'   points, and `range` and `share` of the settings. `NULL`: points without `se` are not assessed.
 #' @param unchanged Names of patches that did not change. `NULL`: not known.
 #' @param table Measurements, as in [measurements()]. `NULL`: those of the face for its scheme.
 #' @param norms A `shape_norms` whose expected growth is subtracted, as of [fit_norms()]. `NULL`:
 #'   growth is not subtracted.
-#' @param ages Two numbers: the ages at both visits, in the unit of the norm's ages.
+#' @param ages Two numbers: the ages at both visits, the first not above the second, in the unit of
+#'   the norm's ages.
 #' @param sex As in [assess()].
 #' @param settings [visit_settings()].
 #' @return Object of class `visit_comparison`, a list:
@@ -44,8 +45,9 @@
 #'     `called` (surface points: beyond the family-wise limit);
 #'   * `parts`: data frame with a row for each curve and patch: `level`, `part`, `change` (mean),
 #'     `se`, `detectable`, `p`, `p_holm`, `called`;
-#'   * `measurements`: data frame: `measurement`, `before`, `after`, `growth`, `change` (without
-#'     growth; NA if the norm has not this measurement), `se`, `detectable`, `p`, `p_holm`, `unit`;
+#'   * `measurements`: data frame: `measurement`, `before`, `after` (both less the `bias` of
+#'     [measurements()] where it is known of both), `growth`, `change` (without growth; NA if the
+#'     norm has not this measurement), `se`, `detectable`, `p`, `p_holm`, `unit`;
 #'   * `limit` (of the scores), `weights` (of the registration, by surface point), `converged`,
 #'     `robust` (whether the registration was), `ids`, `alpha` (1 - `level` of the settings), `unit`
 #'     (of lengths: "mm" for [face_scheme()], otherwise "unit"), `triangles` (3 x m, rows of the
@@ -55,10 +57,12 @@
 #'   `as.data.frame()` gives `points`.
 #' @section Errors: of class `crestline_error`: the shapes have different schemes, or fewer than
 #'   three points in common; `unchanged` names no patch; the sizes differ as units do (5 times);
-#'   the second is a mirror image of the first; the norm is of another scheme, or
-#'   does not have these ages.
+#'   the second is a mirror image of the first; the norm is of another scheme, or does not have
+#'   these ages; `error` has names of landmarks.
 #' @section Warnings: of class `crestline_not_converged`: the weights still change after the last
-#'   round. Of class `crestline_not_slid`: a measured shape was not slid. Of class
+#'   round. Of class `crestline_visit_doubt`: more than half of the surface points changed, so that
+#'   the registration may be wrong: another person, unit or expression, or a child that grew. Of
+#'   class `crestline_not_slid`: a measured shape was not slid. Of class
 #'   `crestline_red_parts`: parts of a shape are red.
 #' @template glossary
 #' @template experimental
@@ -79,7 +83,7 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
   check_class(settings, "visit_settings", "settings", "visit_settings()")
   check_same_scheme(after, before)
   known <- visits_with_errors(before, after, error, settings)
-  growth <- checked_growth(before, norms, ages, sex)
+  growth <- checked_growth(known, norms, ages, sex)
   scheme <- before$scheme
   table <- norm_measurements(table, scheme)
   surface <- before$points$level == "surface"
@@ -98,6 +102,7 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
   assessed <- points$level == "surface" & !is.na(points$score)
   limit <- visit_limit(covariance[assessed, assessed, drop = FALSE], known$settings)
   points$called <- assessed & abs(points$score) > limit
+  if (is.null(unchanged)) warn_most_changed(points$called, assessed, growth, after$id)
   unit <- length_unit(scheme_hash(scheme))
   structure(list(points = points, parts = changed_parts(points, covariance, known$settings),
                  measurements = changed_measurements(known, table, growth, unit), limit = limit,
@@ -111,22 +116,53 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
 }
 
 #' Both visits with their errors: their own, or those of repeated scans
-#' @return List: `before`, `after`, `error` (for points without any, or NULL), `settings`.
+#' @return List: `before`, `after`, `error` (for points without any, or NULL), `settings`,
+#'   `together` (as in [place_errors()]).
 #' @noRd
 visits_with_errors <- function(before, after, error, settings) {
   if (!inherits(error, "visit_errors")) {
-    if (!is.null(error)) {
-      error <- check_number(error, "error", lower = 0, open = TRUE)
+    if (!is.null(names(error))) {
+      refuse_argument("error", error, "Give one number, of all points without `se`.",
+                      "of single landmarks")
     }
-    return(list(before = before, after = after, error = error, settings = settings))
+    if (!is.null(error)) error <- check_number(error, "error", lower = 0, open = TRUE)
+    before <- without_zero_errors(before)
+    after <- without_zero_errors(after)
+    together <- if (settings$range > 0 && has_coordinate_errors(before)) {
+      settings[c("range", "share")]
+    }
+    return(list(before = before, after = after, error = error, settings = settings,
+                together = together))
   }
   if (!identical(error$hash, scheme_hash(before$scheme))) {
     crestline_abort("`error` is of another scheme.", "Give repeated scans of this scheme.",
                     stage = "visits")
   }
   settings[c("range", "share")] <- error[c("range", "share")]
-  list(before = with_errors(before, error), after = with_errors(after, error), error = NULL,
-       settings = settings)
+  before <- without_zero_errors(with_errors(before, error))
+  after <- without_zero_errors(with_errors(after, error))
+  list(before = before, after = after, error = NULL,
+       settings = settings, together = error[c("range", "share")])
+}
+
+#' A standard error of 0 is none: every change would be called
+#' @noRd
+without_zero_errors <- function(shape) {
+  shape$points$se[which(shape$points$se == 0)] <- NA
+  shape
+}
+
+#' Most of the face has changed: the registration takes most of it to be as it was
+#' @noRd
+warn_most_changed <- function(called, assessed, growth, id) {
+  share <- if (any(assessed)) mean(called[assessed]) else 0
+  if (share <= 0.5) return(invisible())
+  crestline_warn(sprintf("%.0f %% of the surface points changed; the registration needs %s.",
+                         100 * share, "that most did not"),
+                 paste0("See whether both visits are of one person and in one unit",
+                        if (is.null(growth)) " (a child grows: give `norms`)",
+                        ", or name `unchanged` patches."),
+                 stage = "visits", id = id, class = "crestline_visit_doubt")
 }
 
 #' Settings of the comparison of two visits
@@ -351,16 +387,21 @@ changed_parts <- function(points, covariance, settings) {
 }
 
 #' @param unit Of lengths, in place of "unit".
+#' @param draws As in [measurements()].
 #' @noRd
-changed_measurements <- function(known, table, growth, unit) {
+changed_measurements <- function(known, table, growth, unit, draws = 200) {
   if (is.null(table)) return(NULL)
-  a <- measurements(known$before, table, error = known$error)
-  b <- measurements(known$after, table, error = known$error)
-  grown <- if (is.null(growth)) list(growth = 0, se = 0) else measured_growth(a, growth)
+  a <- measured_rows(list(known$before), table, known$error, draws, known$together)
+  b <- measured_rows(list(known$after), table, known$error, draws, known$together)
+  # A worse scan makes curves longer: what errors add is no change.
+  both <- !is.na(a$bias) & !is.na(b$bias)
+  before <- a$value - ifelse(both, a$bias, 0)
+  after <- b$value - ifelse(both, b$bias, 0)
+  grown <- if (is.null(growth)) list(growth = 0, se = 0) else measured_growth(a$measurement, growth)
   se <- sqrt(a$se^2 + b$se^2 + grown$se^2)
-  change <- b$value - a$value - grown$growth
+  change <- after - before - grown$growth
   p <- 2 * stats::pnorm(-abs(change / se))
-  data.frame(measurement = a$measurement, before = a$value, after = b$value,
+  data.frame(measurement = a$measurement, before = before, after = after,
              growth = grown$growth, change = change, se = se, detectable = 1.96 * se, p = p,
              p_holm = stats::p.adjust(p, "holm"), unit = sub("^unit", unit, a$unit))
 }

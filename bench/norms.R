@@ -81,8 +81,8 @@ new_faces <- function(norms, settings, count, seed, lesions = NULL, ages = c(4, 
                                                       1))
   xyz <- drawn$visits[[1]]
   plan <- own("measurement_plan")(norms$measurements, template$scheme)
-  measured <- t(own("measure_places")(plan, xyz))
-  colnames(measured) <- names(plan)
+  shapes <- own("cohort_sample")(model, xyz, drawn$data$id, settings)$shapes
+  measured <- own("unbiased_values")(unname(shapes), plan)
   logs <- norms$table$transform[1 + seq_len(ncol(measured))] == "log"
   measured[, logs] <- log(measured[, logs])
   reference <- as.matrix(norms$points[c("x", "y", "z")])
@@ -93,8 +93,10 @@ new_faces <- function(norms, settings, count, seed, lesions = NULL, ages = c(4, 
     as.vector(own("asymmetric_part")(one$laid, norms$points$partner)[side, ])
   }, numeric(3 * sum(side))))
   list(points = norms$points, y = y, off = off,
-       values = cbind(size = log(vapply(laid, `[[`, 0, "size")), measured),
-       scale = vapply(laid, `[[`, 0, "scale"), lesions = drawn$lesions,
+       values = cbind(size = vapply(laid, function(one) {
+         own("unbiased_log_size")(one$size, rep(settings$noise, nrow(reference)))
+       }, 0), measured),
+       shapes = shapes, scale = vapply(laid, `[[`, 0, "scale"), lesions = drawn$lesions,
        people = list(age = drawn$data$age, group = factor(drawn$data$sex, norms$ages$sex)))
 }
 
@@ -196,17 +198,24 @@ worse_scans <- function(norms, settings, faces) {
     say(sprintf("noise %g: scan plain, widened", noise),
         c(beyond(found$surface$plain, norms, "surface"),
           beyond(found$surface$widened, norms, "surface")), faces)
-    measured <- !grepl("^component |^size$", colnames(found$z))
-    # On the wider scale: errors on the scales of the norm grow with noise and with 1 / size
-    se <- outer(data$scale / sqrt(mean(data$scale^2)),
-                norms$table$se_norm[measured] * noise / settings$noise)
+    measured <- which(!grepl("^component |^size$", colnames(found$z)))
+    # On the wider scale, with each face's own standard errors, as assess() has it
+    each <- lapply(data$shapes, own("own_errors"), norms)
+    of <- function(name) t(vapply(each, function(one) one[[name]][measured], 0 * measured))
     expected <- own("expected_columns")(norms$values, data$people$age, data$people$group)
-    extra <- pmax(0, se^2 - rep(norms$table$se_norm[measured]^2, each = faces))
-    part <- lapply(expected, function(x) x[, which(measured)])
-    wide <- own("straightened")(own("predicted_z")(data$values[, -1], part, extra),
-                                norms$table[measured, ])
+    part <- lapply(expected, function(x) x[, measured])
+    extra <- pmax(0, of("se")^2 - rep(norms$table$se_norm[measured]^2, each = faces))
+    z <- lapply(list(plain = 0, wide = extra), function(extra) {
+      own("straightened")(own("predicted_z")(of("value"), part, extra), norms$table[measured, ])
+    })
     say(sprintf("noise %g: measurements within 1.96, plain, widened", noise),
-        c(mean(abs(found$z[, measured]) <= 1.96), mean(abs(wide) <= 1.96)), faces)
+        vapply(z, function(z) mean(abs(z) <= 1.96, na.rm = TRUE), 0), faces)
+    say(sprintf("noise %g: measurements not larger than what errors add", noise),
+        mean(is.na(z$wide)), faces)
+    inside <- split(colMeans(abs(z$wide) <= 1.96, na.rm = TRUE), norms$measurements$kind)
+    say(sprintf("noise %g: the same by kind, widened", noise), vapply(inside, mean, 0), faces)
+    say(sprintf("noise %g: least and largest of a measurement", noise), range(unlist(inside)),
+        faces)
   }
 }
 
@@ -254,23 +263,22 @@ only_z <- function(faces) {
   saveRDS(rows, kept_file(paste0(seed, "-z")))
 }
 
-# z of the same faces without noise, within 1.96 of their own standard errors.
+# z of the same faces without noise, within 1.96 of their own standard errors: size and all
+# measurements, as assess() has them.
 own_error <- function(norms, settings, faces) {
   clean <- settings
   clean$noise <- 0
   truth <- new_faces(norms, clean, faces, 3000 + seed)
-  for (noise in c(0.1, 0.3, 0.7)) {
+  for (noise in c(0.1, 0.3, 0.5, 0.7)) {
     noisy <- settings
     noisy$noise <- noise
     data <- new_faces(norms, noisy, faces, 3000 + seed)
-    distance <- which(norms$measurements$kind == "distance")
-    plan <- own("measurement_plan")(norms$measurements[distance, ], own("face_scheme")())
-    expected <- own("expected_columns")(norms$values, data$people$age, data$people$group)
-    sd <- expected$sd[, 1 + distance]
-    # A distance between two landmarks: sqrt(2) of their error, on the log scale
-    se <- sqrt(2) * noise / exp(data$values[, 1 + distance]) / sd
-    off <- (data$values - truth$values)[, 1 + distance] / sd / se
-    say(sprintf("own error, noise %g: share covered", noise), mean(abs(off) <= 1.96), faces)
+    each <- lapply(data$shapes, own("own_errors"), norms)
+    of <- function(name) t(vapply(each, function(one) one[[name]], 0 * truth$values[1, ]))
+    covered <- colMeans(abs((of("value") - truth$values) / of("se")) <= 1.96, na.rm = TRUE)
+    say(sprintf("own error, noise %g: share covered", noise), mean(covered), faces)
+    kind <- c("size", norms$measurements$kind)
+    say(sprintf("own error, noise %g: by kind", noise), tapply(covered, kind, mean), faces)
   }
 }
 
@@ -368,22 +376,36 @@ visits <- function(faces, only) {
   for (case in list(c(0, 15), c(3, 30), c(6, 45))) {
     if (length(only) && case[1] != only) next
     lesion <- data.frame(height = case[1], radius = case[2], visit = 2)
-    made <- lapply(list(c(0.15, 0), c(0.15, 8)), function(noise) {
-      simulate_cohort(faces, data = people, lesions = lesion, visits = 2, seed = 100 + seed,
-                      settings = cohort_settings(noise = noise[1], noise_range = noise[2],
-                                                 turn = 0, shift = 0))
+    simulated <- function(seed, noise, range = 0) {
+      simulate_cohort(faces, data = people, lesions = lesion, visits = 2, seed = seed,
+                      settings = cohort_settings(noise = noise, noise_range = range, turn = 0,
+                                                 shift = 0))
+    }
+    clean <- simulated(100 + seed, 0)
+    # Errors of both kinds, each of random numbers of its own
+    errors <- lapply(list(c(100 + seed, 0), c(50100 + seed, 8)), function(one) {
+      with <- simulated(one[1], 0.15, one[2])
+      without <- simulated(one[1], 0)
+      lapply(c(sample = "sample", second = "second"), function(visit) {
+        Map(function(a, b) own("point_columns")(a) - own("point_columns")(b),
+            with[[visit]]$shapes, without[[visit]]$shapes)
+      })
     })
-    clean <- simulate_cohort(faces, data = people, lesions = lesion, visits = 2,
-                             seed = 100 + seed,
-                             settings = cohort_settings(noise = 0, turn = 0, shift = 0))
-    each <- lapply(seq_len(faces), function(i) visit_row(made, clean, i))
+    each <- lapply(seq_len(faces), function(i) visit_row(errors, clean, i))
     each <- do.call(rbind, each)
     label <- sprintf("visits, %g mm on %g cm:", case[1], case[2] / 5)
     say(paste(label, "unchanged points called, family-wise"), mean(each[, "any"]), faces)
     say(paste(label, "unchanged points beyond 1.96"), mean(each[, "points"]), faces)
-    say(paste(label, "sd of a point's change over its standard error"),
-        sqrt(mean(each[, "square"])), faces)
-    say(paste(label, "the same of patches"), sqrt(mean(each[, "patch"])), faces)
+    # With the standard error of the ratio, from the spread between faces
+    ratio <- function(square) {
+      square <- square[is.finite(square)]
+      root <- sqrt(mean(square))
+      c(root, stats::sd(square) / sqrt(length(square)) / (2 * root))
+    }
+    say(paste(label, "error of a point over its standard error, +-"), ratio(each[, "square"]),
+        faces)
+    say(paste(label, "the same of patches, +-"), ratio(each[, "patch"]), faces)
+    say(paste(label, "the same of measurements, +-"), ratio(each[, "measured"]), faces)
     if (case[1] > 0) {
       say(paste(label, "change at the centre, over the true one"), mean(each[, "centre"]), faces)
       say(paste(label, "centre called"), mean(each[, "found"]), faces)
@@ -392,31 +414,30 @@ visits <- function(faces, only) {
 }
 
 # Both errors are added to one face, whose second visit is turned and moved.
-visit_row <- function(made, clean, i) {
+visit_row <- function(errors, clean, i) {
   noisy <- function(visit) {
     shape <- clean[[visit]][[i]]
     xyz <- c("x", "y", "z")
-    for (one in made) {
-      shape$points[xyz] <- shape$points[xyz] + one[[visit]][[i]]$points[xyz] -
-        clean[[visit]][[i]]$points[xyz]
-    }
+    for (one in errors) shape$points[xyz] <- shape$points[xyz] + one[[visit]][[i]]
     shape$points$se <- 0.15 * sqrt(2)
     shape
   }
   after <- noisy("second")
   turned <- as.matrix(after$points[c("x", "y", "z")]) %*% own("rotation_about")(c(0.1, -0.2, 0.1))
   after$points[c("x", "y", "z")] <- as.data.frame(turned + 5)
-  found <- compare_visits(noisy("sample"), after, table = face_measurements()[1, ],
+  found <- compare_visits(noisy("sample"), after,
                           settings = visit_settings(range = 8, share = 0.5))
   surface <- found$points[found$points$level == "surface", ]
-  at <- match(made[[1]]$lesions$point[i], paste(surface$part, surface$point))
+  at <- match(clean$lesions$point[i], paste(surface$part, surface$point))
   xyz <- as.matrix(surface[c("x", "y", "z")])
-  lesion <- made[[1]]$lesions[i, ]
+  lesion <- clean$lesions[i, ]
   far <- if (is.na(at)) rep(TRUE, nrow(xyz)) else
     own("row_lengths")(sweep(xyz, 2, xyz[at, ])) > lesion$radius
   whole <- vapply(split(far, surface$part), all, NA)
   patch <- found$parts[found$parts$level == "surface" & found$parts$part %in% names(which(whole)), ]
-  c(any = any(surface$called[far]), points = mean(abs(surface$score[far]) > 1.96),
+  measured <- found$measurements
+  c(measured = if (is.na(at)) mean((measured$change / measured$se)^2) else NA,
+    any = any(surface$called[far]), points = mean(abs(surface$score[far]) > 1.96),
     square = mean(surface$score[far]^2), patch = mean((patch$change / patch$se)^2),
     centre = if (is.na(at)) NA else surface$change[at] / lesion$height,
     found = if (is.na(at)) NA else surface$called[at])

@@ -11,17 +11,54 @@ test_that("z does not depend on the pose, and size only on size", {
   turn <- rotation_about(c(0.4, 1, -2))
   moved$points[c("x", "y", "z")] <- as.data.frame(sweep(xyz %*% turn, 2, c(30, -5, 9), `+`))
   larger$points[c("x", "y", "z")] <- as.data.frame(1.1 * xyz)
+  larger$points$se <- 1.1 * shape$points$se
   a <- looked(shape)
   b <- looked(moved)
-  # Errors of lengths come from draws, which are not turned with the face.
-  same <- c("name", "value", "z", "centile")
-  expect_equal(a$values[same], b$values[same], tolerance = 1e-8)
+  # Errors come from draws, which are turned with the face.
+  same <- c("name", "value", "z", "centile", "se_scan")
+  expect_equal(a$values[same], b$values[same], tolerance = 1e-6)
   expect_equal(a$points[-(2:4)], b$points[-(2:4)], tolerance = 1e-6)
   c <- looked(larger)
   expect_equal(c$values$value[1], 1.1 * a$values$value[1])
   expect_equal(c$points$z_map, a$points$z_map, tolerance = 1e-6)
   ratio <- a$values$name == "index"
   expect_equal(c$values$z[ratio], a$values$z[ratio], tolerance = 1e-8)
+})
+
+test_that("what errors add is taken off a worse scan, and off one whose errors are not known", {
+  norms <- small_norms()
+  long <- norms$table$name == "arc"
+  expect_gt(norms$table$bias_norm[long], 0)
+  people <- data.frame(age = rep(10, 60), sex = "female")
+  value <- function(noise) {
+    shapes <- simulate_cohort(60, data = people, template = small_template(), seed = 3,
+                              settings = cohort_settings(noise = noise))$sample$shapes
+    each <- lapply(shapes, own_errors, norms, draws = 20)
+    list(with = vapply(each, function(one) one$value[long], 0),
+         bias = mean(vapply(each, function(one) one$bias[long], 0)), shapes = shapes)
+  }
+  truth <- value(0)
+  worse <- value(2)
+  off <- worse$with - truth$with
+  # Errors of 2 lengthen the arc by many standard errors of a mean
+  expect_gt(worse$bias, 5 * stats::sd(off) / sqrt(60))
+  expect_lt(abs(mean(off)), 3 * stats::sd(off) / sqrt(60))
+  bare <- worse$shapes[[1]]
+  bare$points$se <- NA_real_
+  found <- own_errors(bare, norms)
+  plain <- measurements(bare, norms$measurements, draws = 0)$value[which(long) - 1]
+  expect_equal(found$value[long], log(plain) - norms$table$bias_norm[long])
+  former <- norms
+  former$table$bias_norm <- NULL
+  expect_equal(own_errors(worse$shapes[[1]], former)$value[long], log(plain))
+})
+
+test_that("a measurement that is not larger than what its errors add is not assessed", {
+  shape <- small_patient()
+  shape$points$se <- 60
+  found <- looked(shape)$values
+  expect_true(is.na(found$z[1]))
+  expect_match(found$reason[1], "not larger than what its errors add")
 })
 
 test_that("z, centile and expectation fit each other", {

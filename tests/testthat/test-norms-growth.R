@@ -30,9 +30,11 @@ test_that("growth takes most of the change of a child away, and no growth nothin
 test_that("a face that keeps its z is expected where it is", {
   norms <- small_norms()
   shape <- small_patient()
-  grown <- suppressWarnings(expected_growth(shape, norms, c(10, 13), "female"))
+  grown <- suppressWarnings(expected_growth(list(before = shape), norms, c(10, 13), "female"))
   later <- shape
   later$points[c("x", "y", "z")] <- point_columns(shape) + grown$move
+  # Errors grow with it, so that they add the same to size and lengths
+  later$points$se <- shape$points$se * exp(grown$values$later[1] - grown$values$now[1])
   a <- suppressWarnings(assess(shape, norms, age = 10, sex = "female"))
   b <- suppressWarnings(assess(later, norms, age = 13, sex = "female"))
   expect_equal(b$values$value[1], exp(grown$values$later[1]), tolerance = 1e-8)
@@ -47,6 +49,10 @@ test_that("ages without norms, and ages beyond them, are refused", {
   expect_crestline_error(suppressWarnings(
     compare_visits(shape, shape, norms = small_norms(), ages = c(8, 50), sex = "female")
   ), "range")
+  expect_crestline_error(
+    compare_visits(shape, shape, norms = small_norms(), ages = c(11, 9), sex = "female"),
+    c("`ages`", "exchanged")
+  )
   expect_crestline_error(compare_visits(shape, shape, norms = small_norms(), sex = "female"),
                          "`ages`")
 })

@@ -48,7 +48,7 @@ test_that("share and range of the correlation are found", {
 test_that("visits are compared with the errors of repeats, and wrong ones are refused", {
   errors <- repeated(40, noise = 0.2)
   shape <- small_patient()
-  found <- compare_visits(shape, small_patient(seed = 6), error = errors)
+  found <- suppressWarnings(compare_visits(shape, small_patient(seed = 6), error = errors))
   own <- errors$points[errors$points$level != "landmarks", ]
   # Laying on each other takes up a little.
   expect_equal(found$points$se, sqrt(2) * own$se, tolerance = 0.1)

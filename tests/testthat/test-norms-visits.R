@@ -37,6 +37,44 @@ test_that("the pose of the second visit does not count, its size does", {
   expect_lt(max(abs(same$points$change)), 1e-9)
 })
 
+test_that("a second scan that is worse changes no length", {
+  people <- data.frame(age = rep(20, 20), sex = "female")
+  visit <- function(noise) {
+    simulate_cohort(20, data = people, template = small_template(), seed = 6,
+                    settings = cohort_settings(noise = noise))$sample
+  }
+  first <- visit(0.1)
+  second <- visit(2)
+  table <- ball_measurements()
+  long <- which(table$measurement == "arc")
+  found <- lapply(seq_along(first), function(i) {
+    compare_visits(first[[i]], second[[i]], table = table)$measurements[long, ]
+  })
+  found <- do.call(rbind, found)
+  raw <- measurements(second[[1]], table[long, ])$value -
+    measurements(first[[1]], table[long, ])$value
+  score <- found$change / found$se
+  expect_lt(abs(mean(score)), 3 / sqrt(20))
+  # As measured, arcs become longer
+  expect_gt(raw, found$change[1])
+})
+
+test_that("another person is said, errors of 0 are none, and errors of landmarks are refused", {
+  made <- two_visits(0, 2)
+  expect_warning(compare_visits(made$sample[[1]], made$second[[2]]), "of one person.*give `norms`",
+                 class = "crestline_visit_doubt")
+  expect_no_warning(compare_visits(made$sample[[1]], made$second[[1]]))
+  exact <- lapply(list(made$sample[[1]], made$second[[1]]), function(shape) {
+    shape$points$se <- 0
+    shape
+  })
+  found <- compare_visits(exact[[1]], exact[[2]], table = ball_measurements())
+  expect_true(all(is.na(found$points$score)) && !any(found$points$called))
+  expect_true(all(is.na(found$measurements$p)))
+  expect_crestline_error(compare_visits(exact[[1]], exact[[2]], error = c(aL = 1)),
+                         c("`error`", "landmarks"))
+})
+
 test_that("least squares by patches that did not change, and wrong names", {
   made <- two_visits(0)
   a <- compare_visits(made$sample[[1]], made$second[[1]], unchanged = "mid")

@@ -18,7 +18,7 @@ printable_objects <- function(made = argument_objects()) {
        curvature(one, 20), ridge_settings(), find_settings(), slide_settings(),
        path_settings(), cohort_settings(), norm_settings(), visit_settings(), repeat_settings(),
        small_norms(),
-       compare_visits(small_patient(), small_patient(seed = 6)),
+       suppressWarnings(compare_visits(small_patient(), small_patient(seed = 6))),
        visit_errors(list(small_patient(), small_patient(seed = 6))),
        suppressWarnings(assess(small_patient(), small_norms(), 10, "female")),
        simulate_cohort(2, template = symmetrise(shape), seed = 1),

@@ -1,0 +1,35 @@
+# Size and measurements less what errors of their points add.
+
+#' Measurements of shapes less what errors of their points add
+#'
+#' @param draws A few do: the mean over all faces is exact, and a draw with its mirror image is
+#'   without errors of first order.
+#' @param some Number of shapes by which it is seen how errors go together.
+#' @return Matrix: shapes x measurements. Where the bias is unknown, nothing is taken off.
+#' @noRd
+unbiased_values <- function(shapes, plan, draws = 2, some = 20, seed = 1) {
+  unknown <- check_landmark_error(NULL, shapes[[1]]$scheme)
+  rows <- unique(unlist(plan_rows(plan)))
+  together <- shared_errors(utils::head(shapes, some))
+  value <- t(vapply(seq_along(shapes), function(i) {
+    xyz <- places_of(shapes[[i]])
+    value <- measure_places(plan, array(xyz, c(dim(xyz), 1)))[, 1]
+    spread <- place_errors(shapes[[i]], unknown, together, rows)
+    # Draws of one face must not go together with those of another
+    bias <- drawn_errors(plan, xyz, value, spread, draws, seed + i)$bias
+    value - ifelse(is.na(bias), 0, bias)
+  }, numeric(length(plan))))
+  matrix(value, length(shapes), dimnames = list(NULL, names(plan)))
+}
+
+not_above_errors <- function() "it is not larger than what its errors add"
+
+#' Log centroid size less what errors of co-ordinates add to it
+#' @param se Of the points; nothing is taken off where fewer than half have one.
+#' @return A number, NA where errors add more than there is.
+#' @noRd
+unbiased_log_size <- function(size, se) {
+  if (mean(!is.na(se)) < 0.5) return(log(size))
+  square <- size^2 - 3 * length(se) * mean(se^2, na.rm = TRUE)
+  if (square > 0) log(square) / 2 else NA_real_
+}
