@@ -15,7 +15,7 @@ norm_columns <- function(header) {
                                 "partner", "side", "se_norm", "r_xy", "r_xz", "r_yz"),
                   triangles = numbered("v", 3), counts = c("sex", "from", "to", "n"),
                   ages = c("sex", "from", "to"),
-                  table = c("name", "transform", "se_norm", numbered("skew_", 4)),
+                  table = c("name", "transform", "se_norm", numbered("skew_", 4), "bias_norm"),
                   healing = c("at", "radius", "base", "peak"))
   fields <- c("surface", if (!is.null(header$asymmetry)) "asymmetry")
   for (name in c("values", fields, paste0(fields, "-along"))) {
@@ -162,7 +162,8 @@ check_norm_counts <- function(norms, header) {
   skew <- as.matrix(norms$table[paste0("skew_", 1:4)])
   skew <- skew[rowSums(is.na(skew)) < 4, , drop = FALSE]
   if (!identical(norms$table$name, named) || !all(norms$table$transform %in% c("log", "as is")) ||
-        !isTRUE(all(norms$table$se_norm >= 0)) || !isTRUE(all(skew[, c(2, 4)] > 0))) {
+        !isTRUE(all(norms$table$se_norm >= 0)) || !isTRUE(all(skew[, c(2, 4)] > 0)) ||
+        any(is.infinite(norms$table$bias_norm))) {
     refuse_norm("table.csv", paste("its names are not size, those of measurements.csv and the",
                                    "components, or it has values that no norm has"))
   }

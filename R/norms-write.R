@@ -84,6 +84,10 @@
 #' * *Values*. Size is the centroid size of the face's points that are in `reference.csv`: the root
 #'   of the sum of their squared distances from their mean. Where `transform` is "log", y is the
 #'   natural logarithm of the value, and the expected value is \eqn{\exp(E)}. Angles are in degrees.
+#'   What errors add is first taken off the value: the `bias` of [measurements()]; of the squared
+#'   size 3 times the sum of the squared standard errors of its points. Where errors are not known,
+#'   `bias_norm` of `table.csv` is taken off y in place of that. Where `bias_norm` is empty,
+#'   nothing is taken off.
 #' * *Registration*. The points x of the face (a row each) are laid on the points m of
 #'   `reference.csv` by least squares, with scale: they become \eqn{w = f (x - c) R + c_m}, c and
 #'   \eqn{c_m} being the means of x and m. With the singular value decomposition \eqn{U D V'} of
