@@ -7,16 +7,19 @@
 #' @param some Number of shapes by which it is seen how errors go together.
 #' @return Matrix: shapes x measurements. Where the bias is unknown, nothing is taken off.
 #' @noRd
-unbiased_values <- function(shapes, plan, draws = 2, some = 20, seed = 1) {
+unbiased_values <- function(shapes, plan, draws = 2, some = 20) {
   unknown <- check_landmark_error(NULL, shapes[[1]]$scheme)
   rows <- unique(unlist(plan_rows(plan)))
-  together <- shared_errors(utils::head(shapes, some))
+  # Neither choice nor draws may depend on the order of the faces
+  ids <- vapply(shapes, `[[`, "", "id")
+  together <- shared_errors(shapes[utils::head(order(ids, method = "radix"), some)])
   value <- t(vapply(seq_along(shapes), function(i) {
     xyz <- places_of(shapes[[i]])
     value <- measure_places(plan, array(xyz, c(dim(xyz), 1)))[, 1]
     spread <- place_errors(shapes[[i]], unknown, together, rows)
     # Draws of one face must not go together with those of another
-    bias <- drawn_errors(plan, xyz, value, spread, draws, seed + i)$bias
+    seed <- strtoi(substr(rlang::hash(ids[i]), 1, 7), 16L)
+    bias <- drawn_errors(plan, xyz, value, spread, draws, seed)$bias
     value - ifelse(is.na(bias), 0, bias)
   }, numeric(length(plan))))
   matrix(value, length(shapes), dimnames = list(NULL, names(plan)))
