@@ -314,9 +314,10 @@ lesions <- function(norms, settings, faces) {
   }
 }
 
-# Whether the scan finds something, within 15 mm of a place
+# Whether the scan finds something, within 15 mm of a place. What is on both sides has one value on
+# both: the first of them is taken, always.
 scan_near <- function(scan, norms, distance, at) {
-  where <- max.col(Reduce(pmax, lapply(scan$z, abs)))
+  where <- max.col(Reduce(pmax, lapply(scan$z, abs)), "first")
   apply(scan$largest, 1, max) > limit_of(norms$surface$scan$quantiles) &
     distance[cbind(where, at)] <= 15
 }
