@@ -33,11 +33,16 @@ with_both_sides <- function(each, field) {
 #' @noRd
 scan_weights <- function(field, radii, inverse = invert_field(field)) {
   distance <- as.matrix(stats::dist(field$points))
+  along <- matrix(as.vector(field$normal) / field$sd, ncol = 3)
+  kernels <- lapply(inverse$roots, chol2inv)
   each <- lapply(radii, function(radius) {
-    height <- bump(distance, radius)
-    lesion <- rbind(height * field$normal[, 1], height * field$normal[, 2],
-                    height * field$normal[, 3]) / field$sd
-    list(lesion = lesion, w = apply_inverse(inverse, lesion))
+    # Most of a bump is 0.
+    height <- Matrix::Matrix(bump(distance, radius), sparse = TRUE)
+    lesion <- lapply(1:3, function(d) along[, d] * height)
+    w <- do.call(rbind, Map(function(kernel, x) as.matrix(kernel %*% x), kernels, lesion))
+    lesion <- as.matrix(do.call(rbind, lesion))
+    list(lesion = lesion, w = w - inverse$solved %*%
+           (inverse$inner %*% crossprod(inverse$solved, lesion)))
   })
   lapply(with_both_sides(each, field), function(one) {
     one$w / rep(sqrt(pmax(colSums(one$w * one$lesion), 1e-300)), each = nrow(one$w))
