@@ -60,11 +60,12 @@ assessment_verdicts <- function(x) {
     one <- x$verdicts[i, ]
     tags$tr(tags$td(family_words[[one$family]]), tags$td(words[[one$verdict]]),
             tags$td(if (one$verdict == "real") verdict_place(one, x)),
-            tags$td(class = "n", p_words(one$p_holm)))
+            tags$td(class = "n p", p_words(one$p_holm)))
   })
   head <- tags$tr(tags$th("question"), tags$th("answer"), tags$th("most at"),
                   tags$th(class = "n", "p, corrected"))
-  tags$section(tags$h2("In short"), page_table(head, rows), unassessed_warning(x), tags$p(
+  answers <- page_table(head, rows, "answers")
+  tags$section(tags$h2("In short"), answers, unassessed_warning(x), tags$p(
     class = "note",
     sprintf("A face \"differs\" where p, corrected for six questions (Holm), is at most %g. By",
             x$alpha),

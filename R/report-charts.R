@@ -27,10 +27,12 @@ assessment_charts <- function(x, most = 4) {
 
 #' @param chart Rows of one name of [growth_chart()].
 #' @param one Row of the values.
+#' @param room Share of the range that stays free above and below, so that no bar seems cut.
 #' @noRd
-growth_drawing <- function(chart, age, one, size = c(360, 250), margin = c(44, 26, 34, 8)) {
+growth_drawing <- function(chart, age, one, size = c(360, 266), margin = c(44, 42, 34, 8),
+                           room = 0.03) {
   shown <- c(chart$value, one$value, one$lower, one$upper)
-  y_range <- range(shown, na.rm = TRUE)
+  y_range <- grDevices::extendrange(shown[!is.na(shown)], f = room)
   x_range <- range(chart$age)
   x <- function(v) margin[1] + (v - x_range[1]) / diff(x_range) * (size[1] - margin[1] - margin[3])
   y <- function(v) {
@@ -55,7 +57,9 @@ growth_drawing <- function(chart, age, one, size = c(360, 250), margin = c(44, 2
                    "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">%s"), x(ages),
             bottom, x(ages), bottom + 17, paste0(ages, "</text>")),
     sprintf("<path d=\"M%g %gV%gH%g\" fill=\"none\" stroke=\"#444\"/>", margin[1], margin[4],
-            bottom, size[1] - margin[3])
+            bottom, size[1] - margin[3]),
+    sprintf("<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">age, years</text>",
+            (margin[1] + size[1] - margin[3]) / 2, bottom + 34)
   ), collapse = "")
   htmltools::HTML(paste0(
     sprintf("<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"growth chart\">", size[1],

@@ -17,24 +17,34 @@ assessment_maps <- function(x, span = 6) {
     card("Each place against the norm", " of this age and sex.", xyz, points$z_map, span,
          x$limits[["map"]]),
     card("Does each place fit the rest of the face?",
-         " This finds small changes that the other map cannot see.", xyz, points$z_scan, span,
+         " This finds small differences that the other map cannot see.", xyz, points$z_scan, span,
          x$limits[["scan"]]),
     card("Expected shape", if (found) {
-      ": the outlined places are replaced by what faces with such surroundings have there."
-    } else ": no place was replaced, as nothing was found that does not fit the rest.", x$healed,
+      " with the outlined places replaced by what faces with such surroundings have there."
+    } else " is the face itself, as nothing was found that does not fit the rest.", x$healed,
     ring = points$healed_sd > 0 & points$assessed),
-    if (asymmetric) card("Asymmetry against the norm's", " shown on one side.", xyz,
+    if (asymmetric) card("Asymmetry against the norm's",
+                         " on one side. Outward: further outward than on the other side.", xyz,
                          points$z_asymmetry, span, x$limits[["asymmetry"]])
   )
   tags$section(tags$h2("Pictures"), tags$div(class = "maps", Filter(Negate(is.null), cards)),
                sign_legend(span), tags$p(class = "note",
                  "+ and \u2212 mark places beyond the limit that 95 % of people keep over the",
-                 "whole face. Grey: not assessed. Below each: from the right and from the left."))
+                 "whole face. Holes: missing in the scan. Grey: not assessed. Below each: from the",
+                 "right and from the left."), grey_print())
 }
 
-#' @param what What is coloured, and its unit, in words.
+#' What of the pictures can be read without colours, for paper only
+#' @noRd
+grey_print <- function() {
+  htmltools::tags$p(class = "note paper", "Without colours, only outlined places can be read.")
+}
+
+#' @param what "z", or the unit of what is coloured.
 #' @noRd
 sign_legend <- function(span, what = "z", palette = sign_colours()) {
+  ends <- sprintf(if (what == "z") "%2$s %1$s" else "%1$s %2$s",
+                  paste0(c("\u2212", "+"), format(span)), what)
   text <- function(x, at, anchor, y = 28) {
     sprintf("<text x=\"%g\" y=\"%g\" text-anchor=\"%s\">%s</text>", x, y, anchor, at)
   }
@@ -44,8 +54,7 @@ sign_legend <- function(span, what = "z", palette = sign_colours()) {
     "<defs><linearGradient id=\"sign\">", paste(stop, collapse = ""), "</linearGradient></defs>",
     "<rect x=\"80\" width=\"240\" height=\"12\" y=\"2\" fill=\"url(#sign)\" stroke=\"#444\"/>",
     text(74, "\u2212 inward", "end", 12), text(326, "+ outward", "start", 12),
-    text(80, sprintf("\u2212%g", span), "middle"), text(200, paste(what, "0"), "middle"),
-    text(320, sprintf("+%g", span), "middle"), "</svg>"
+    text(80, ends[1], "middle"), text(200, "0", "middle"), text(320, ends[2], "middle"), "</svg>"
   ))
 }
 
@@ -94,7 +103,9 @@ draw_signs <- function(triangles, xyz, value, span, most, ring, view, signs) {
     line <- level_lines(mesh, ifelse(edge[row], 1, 0), 0.5)
     if (nrow(line)) draw_lines(scene, line, "black", 1.5)
   }
-  beyond <- which(signs & is.finite(value) & abs(value) > most)
+  # Points of no triangle would float beside the face
+  drawn <- seq_along(value) %in% triangles
+  beyond <- which(signs & drawn & is.finite(value) & abs(value) > most)
   seen <- beyond[visible_points(scene, xyz[beyond, , drop = FALSE])]
   if (length(seen)) {
     at <- view_points(scene, xyz[seen, , drop = FALSE])

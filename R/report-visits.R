@@ -52,7 +52,7 @@ visit_answers <- function(x) {
                                       most_changed(own, own$measurement))))
   }
   head <- tags$tr(lapply(c("question", "answer", "most at"), tags$th))
-  tags$section(tags$h2("In short"), page_table(head, rows), unseen_warning(x), tags$p(
+  tags$section(tags$h2("In short"), page_table(head, rows, "answers"), unseen_warning(x), tags$p(
     class = "note",
     sprintf("Of each question, nothing is called with probability %g if nothing changed and the",
             1 - x$alpha),
@@ -135,7 +135,7 @@ visit_maps <- function(x, full = 6) {
     sprintf("surface keeps with probability %g if nothing changed.", 1 - x$alpha)
   ) else "No error is known, so that nothing can be called: give compare_visits() an `error`.",
   "Grey: missing at the second visit, or without an error. Below each: from the right and from",
-  "the left."))
+  "the left."), grey_print())
 }
 
 #' @param most Number of parts that are shown at first.

@@ -105,11 +105,18 @@ test_that("a chart has the person's point where it belongs", {
   chart <- data.frame(age = rep(c(0, 10), 3), centile = rep(c(3, 50, 97), each = 2),
                       value = c(0, 0, 5, 5, 10, 10))
   one <- data.frame(value = 5, lower = 4, upper = 6)
-  drawn <- as.character(growth_drawing(chart, 5, one, size = c(100, 100), margin = rep(0, 4)))
+  drawn <- as.character(growth_drawing(chart, 5, one, size = c(100, 100), margin = rep(0, 4),
+                                       room = 0))
   expect_match(drawn, "<circle cx=\"50.0\" cy=\"50.0\"", fixed = TRUE)
   expect_match(drawn, "M50.0 60.0V40.0", fixed = TRUE)
   # The highest curve is at the top.
   expect_match(drawn, "<path d=\"M0.0 0.0L100.0 0.0\"", fixed = TRUE)
+  expect_match(drawn, "age, years", fixed = TRUE)
+  # A bar that is the lowest of all does not touch the axis.
+  one$lower <- -10
+  drawn <- as.character(growth_drawing(chart, 5, one, size = c(100, 100), margin = rep(0, 4)))
+  bar <- sub(".*<path d=\"M50.0 ([0-9.]+)V.*", "\\1", drawn)
+  expect_lt(as.numeric(bar), 98)
   one$lower <- one$upper <- NA
   expect_no_match(as.character(growth_drawing(chart, 5, one)), "stroke-width=\"2\"/><circle")
 })
@@ -166,7 +173,7 @@ test_that("errors alone do not fill the scale of a change", {
   compared <- compare_visits(same, same, table = ball_measurements())
   html <- page_text(compared)
   least <- signif(6 * stats::median(compared$points$se[compared$points$level == "surface"]), 1)
-  expect_match(html, sprintf(">+%g</text>", least), fixed = TRUE)
+  expect_match(html, sprintf(">+%g unit</text>", least), fixed = TRUE)
   expect_match(html, "no change shown (35 compared)", fixed = TRUE)
 })
 
@@ -178,4 +185,27 @@ test_that("growth has a column of its own, by which change, before and after fit
   html <- page_text(compared)
   expect_match(html, "<th class=\"n\">growth</th>", fixed = TRUE)
   expect_match(html, "<td class=\"n\">+0.2", fixed = TRUE)
+})
+
+test_that("points of no triangle have no sign, which would float beside the face", {
+  found <- small_assessment()
+  xyz <- as.matrix(found$points[c("x", "y", "z")])
+  drawn <- NULL
+  view <- function(scene, at) {
+    drawn <<- nrow(at)
+    at
+  }
+  signs <- function(triangles) {
+    grDevices::pdf(NULL)
+    on.exit(grDevices::dev.off())
+    own <- environment(draw_signs)
+    copy <- draw_signs
+    environment(copy) <- list2env(list(view_points = view, visible_points = function(scene, at) {
+      rep(TRUE, nrow(at))
+    }), parent = own)
+    copy(triangles, xyz, rep(9, nrow(xyz)), 6, 3, NULL, found$front, TRUE)
+    drawn
+  }
+  some <- found$triangles[, 1:3]
+  expect_equal(signs(some), length(unique(as.vector(some))))
 })
