@@ -126,10 +126,11 @@ print.norm_settings <- function(x, ...) {
 #' @param settings [norm_settings()].
 #' @template progress
 #' @return Object of class `shape_norms`, a list:
-#'   * `points`: data frame of the reference: `point`, `x`, `y`, `z` (in the unit of the meshes;
-#'     with left-right pairs its plane of symmetry is x = 0), normal `nx`, `ny`, `nz`, `partner`,
-#'     `se_norm` (standard error of the sample's points), `r_xy`, `r_xz`, `r_yz` (correlations of a
-#'     point's standardised co-ordinates);
+#'   * `points`: data frame of the reference: `point`, its `part` and `index`, `x`, `y`, `z` (in the
+#'     unit of the meshes; with left-right pairs its plane of symmetry is x = 0), normal `nx`, `ny`,
+#'     `nz`, `partner` (row of the same point of the other side), `side` (TRUE for one of both, on
+#'     which asymmetry is kept), `se_norm` (standard error of the sample's points), `r_xy`, `r_xz`,
+#'     `r_yz` (correlations of a point's standardised co-ordinates);
 #'   * `counts`: data frame with the number of faces by sex and year of age; `ages`: range of ages
 #'     by sex; `n`;
 #'   * `table`: data frame of size, measurements and components: `name`, `transform` ("log" or "as

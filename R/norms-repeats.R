@@ -7,10 +7,14 @@
 #'
 #' All scans of a person are laid on each other by least squares, without scaling. The standard
 #' error of a curve or surface point is that along the normal; that of a landmark is the root mean
-#' square of its three co-ordinates. With fewer than `pool` degrees of freedom all points of a curve
-#' or patch get their root mean square. The correlation of a co-ordinate at two surface points at
+#' square of its three co-ordinates. The correlation of a co-ordinate at two surface points at
 #' distance d is fitted as \eqn{share \exp(-d^2 / (2 range^2))}; the rest of the variance is
 #' independent. It is fitted to products of errors along the normals, over the cosine between these.
+#'
+#' With fewer than `pool` degrees of freedom all points of a curve or patch get one variance. A few
+#' repeats say little of a single patch. Its variance is therefore drawn towards that of all parts of
+#' its level, the more so the less these differ (Smyth). [compare_visits()] judges changes by
+#' Student's distribution with the degrees of freedom that result.
 #'
 #' @param shapes Two or more shapes of one scheme: a list of `shape`s, or a `shape_sample`.
 #' @param specimen A name for each shape: the person. `NULL`: all are of one person.
@@ -19,7 +23,8 @@
 #' @param settings [repeat_settings()].
 #' @return Object of class `visit_errors`, a list:
 #'   * `points`: data frame with a row for each point of the scheme: `level`, `part`, `point`, `se`
-#'     (of one scan, in the unit of the mesh; NA where a point was never measured twice);
+#'     (of one scan, in the unit of the mesh; NA where a point was never measured twice), `df` (its
+#'     degrees of freedom, with those that it has from other parts);
 #'   * `range` (in the unit of the mesh) and `share` of the correlation; 0 and 0 if none is seen;
 #'   * `counts`: numbers of `persons` and `shapes`, degrees of freedom `df`.
 #'
@@ -28,6 +33,8 @@
 #' @template glossary
 #' @template experimental
 #' @seealso [compare_visits()], [repeatability()]
+#' @references Smyth (2004) Linear models and empirical Bayes methods for assessing differential
+#'   expression, *Statistical Applications in Genetics and Molecular Biology* 3, 3.
 #' @examples
 #' \donttest{
 #' people <- data.frame(age = rep(20, 5), sex = "female")
@@ -62,16 +69,72 @@ visit_errors <- function(shapes, specimen = NULL, pool = 30, settings = repeat_s
                            FUN = function(x) mean(x, na.rm = TRUE))
     variance[df == 0 | is.nan(variance)] <- NA
   }
-  se <- sqrt(variance)
-  surface <- points$level == "surface"
   first <- shapes[[persons[[1]][1]]]
-  together <- error_correlation(along[, surface], se[surface], df[surface],
-                                point_columns(first)[surface, ], row_normals(first)[surface, ],
-                                settings)
-  structure(c(list(points = data.frame(points, se = se, row.names = NULL)), together,
+  at <- list(xyz = point_columns(first), normal = row_normals(first))
+  surface <- points$level == "surface"
+  together <- error_correlation(along[, surface], sqrt(variance)[surface], df[surface],
+                                at$xyz[surface, ], at$normal[surface, ], settings)
+  found <- data.frame(variance = variance, df = df)
+  if (most < pool) found <- moderated_variances(variance, df, points, at, together)
+  structure(c(list(points = data.frame(points, se = sqrt(found$variance), df = found$df,
+                                       row.names = NULL)), together,
               list(counts = c(persons = length(persons), shapes = length(unlist(persons)),
                               df = most), hash = scheme_hash(shapes[[1]]$scheme))),
             class = "visit_errors")
+}
+
+#' Variances of parts drawn towards that of their level
+#'
+#' Errors at neighbouring points go together, so that a part has fewer degrees of freedom than its
+#' points: of n points with the correlations r, those of one point times \eqn{n^2 / \sum r^2}.
+#'
+#' @param variance,df Of each point; the variance is that of its part.
+#' @param points Data frame `level`, `part`.
+#' @param at List `xyz`, `normal` (k x 3).
+#' @param together List `range`, `share`.
+#' @return Data frame by point: `variance`, `df`.
+#' @noRd
+moderated_variances <- function(variance, df, points, at, together) {
+  found <- data.frame(variance = variance, df = ifelse(is.na(variance), NA, df))
+  key <- paste(points$level, points$part)
+  known <- which(!is.na(variance) & !is.na(at$xyz[, 1]))
+  parts <- split(known, factor(key[known], unique(key[known])))
+  own_df <- vapply(parts, function(rows) {
+    r <- together_at(at$xyz[rows, , drop = FALSE], together)
+    if (points$level[rows[1]] != "landmarks") r <- r * tcrossprod(at$normal[rows, , drop = FALSE])
+    mean(df[rows]) * length(rows)^2 / sum(r^2) * if (points$level[rows[1]] == "landmarks") 3 else 1
+  }, 0)
+  own <- vapply(parts, function(rows) variance[rows[1]], 0)
+  level <- points$level[vapply(parts, `[`, 0L, 1)]
+  for (one in unique(level)) {
+    of <- which(level == one)
+    prior <- prior_variance(own[of], own_df[of])
+    weight <- if (is.infinite(prior$df)) 1 else prior$df / (prior$df + own_df[of])
+    rows <- unlist(parts[of])
+    count <- lengths(parts[of])
+    found$variance[rows] <- rep(weight * prior$variance + (1 - weight) * own[of], count)
+    # Not more than all parts have together
+    found$df[rows] <- rep(pmin(prior$df + own_df[of], sum(own_df[of])), count)
+  }
+  found
+}
+
+#' The distribution that variances are drawn from: its scale and degrees of freedom (Smyth)
+#'
+#' @param variance,df Of each part.
+#' @param fewest Number of parts from which on they tell of each other.
+#' @return List: `variance`, `df` (0: nothing is known; Inf: they differ by no more than chance).
+#' @noRd
+prior_variance <- function(variance, df, fewest = 3) {
+  ok <- is.finite(variance) & variance > 0 & df > 0
+  if (sum(ok) < fewest) return(list(variance = 0, df = 0))
+  half <- df[ok] / 2
+  off <- log(variance[ok]) - digamma(half) + log(half)
+  left <- stats::var(off) - mean(trigamma(half))
+  if (left <= 0) return(list(variance = exp(mean(off)), df = Inf))
+  # From many degrees of freedom to few: all that trigamma can be
+  prior <- exp(stats::uniroot(function(x) log(trigamma(exp(x))) - log(left), c(-20, 20))$root)
+  list(variance = exp(mean(off) + digamma(prior) - log(prior)), df = 2 * prior)
 }
 
 #' Settings of errors from repeated scans
@@ -170,6 +233,25 @@ error_correlation <- function(along, se, df, xyz, normal, settings, ranges = 2^s
   })
   best <- found[[which.min(vapply(found, `[[`, 0, "left"))]]
   if (best$share < settings$least) none else best[c("range", "share")]
+}
+
+#' Correlation of the errors of a co-ordinate between points
+#' @param settings List: `range`, `share`.
+#' @noRd
+together_at <- function(xyz, settings) {
+  n <- nrow(xyz)
+  if (settings$range == 0) return(diag(n))
+  together <- settings$share * exp(-as.matrix(stats::dist(xyz))^2 / (2 * settings$range^2))
+  diag(together) <- 1
+  unname(together)
+}
+
+#' A standardised change as the normal number of the same probability
+#' @param df Degrees of freedom of its standard error.
+#' @noRd
+normal_score <- function(t, df) {
+  z <- stats::qnorm(stats::pt(-abs(t), df, log.p = TRUE), log.p = TRUE)
+  ifelse(is.finite(df), -sign(t) * z, t)
 }
 
 #' A shape with the errors of repeated scans in place of its own

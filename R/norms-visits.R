@@ -41,8 +41,10 @@
 #'   * `points`: data frame with a row for each curve and surface point: `level`, `part`, `point`,
 #'     `x`, `y`, `z` (first visit), `growth` (expected, along the normal; 0 without `norms`),
 #'     `se_growth` (its standard error, part of `se`), `change` (along the normal, outward positive,
-#'     without growth), `se`, `detectable`, all in the unit of the mesh; `score` (change over se),
-#'     `called` (surface points: beyond the family-wise limit);
+#'     without growth), `se`, `detectable` (from which change on a point that was chosen
+#'     beforehand has p < 0.05), all in the unit of the mesh; `df` (degrees of freedom of the errors
+#'     of [visit_errors()]; otherwise Inf), `score` (change over `se`, with `df` as the normal number
+#'     of the same probability), `called` (surface points: beyond the family-wise limit);
 #'   * `parts`: data frame with a row for each curve and patch: `level`, `part`, `change` (mean),
 #'     `se`, `detectable`, `p`, `p_holm`, `called`;
 #'   * `measurements`: data frame: `measurement`, `before`, `after` (both less the `bias` of
@@ -117,7 +119,7 @@ compare_visits <- function(before, after, error = NULL, unchanged = NULL, table 
 
 #' Both visits with their errors: their own, or those of repeated scans
 #' @return List: `before`, `after`, `error` (for points without any, or NULL), `settings`,
-#'   `together` (as in [place_errors()]).
+#'   `together` (as in [place_errors()]), `df` (of the errors of each point; Inf if they are given).
 #' @noRd
 visits_with_errors <- function(before, after, error, settings) {
   if (!inherits(error, "visit_errors")) {
@@ -132,7 +134,7 @@ visits_with_errors <- function(before, after, error, settings) {
       settings[c("range", "share")]
     }
     return(list(before = before, after = after, error = error, settings = settings,
-                together = together))
+                together = together, df = rep(Inf, nrow(before$points))))
   }
   if (!identical(error$hash, scheme_hash(before$scheme))) {
     crestline_abort("`error` is of another scheme.", "Give repeated scans of this scheme.",
@@ -141,8 +143,8 @@ visits_with_errors <- function(before, after, error, settings) {
   settings[c("range", "share")] <- error[c("range", "share")]
   before <- without_zero_errors(with_errors(before, error))
   after <- without_zero_errors(with_errors(after, error))
-  list(before = before, after = after, error = NULL,
-       settings = settings, together = error[c("range", "share")])
+  list(before = before, after = after, error = NULL, settings = settings,
+       together = error[c("range", "share")], df = error$points$df)
 }
 
 #' A standard error of 0 is none: every change would be called
@@ -330,10 +332,11 @@ changed_points <- function(known, laid, variance, se_growth = NULL) {
   found <- data.frame(points[c("level", "part", "point", "x", "y", "z")],
                       growth = row_products(at - point_columns(known$before), normal),
                       se_growth = se_growth, change = change)
+  found$df <- known$df
   found <- found[found$level != "landmarks", ]
   found$se <- sqrt(variance + found$se_growth^2)
-  found$detectable <- 1.96 * found$se
-  found$score <- found$change / found$se
+  found$detectable <- stats::qt(0.975, found$df) * found$se
+  found$score <- normal_score(found$change / found$se, found$df)
   rownames(found) <- NULL
   found
 }
@@ -354,17 +357,6 @@ visit_limit <- function(covariance, settings) {
   stats::quantile(largest, settings$level, names = FALSE)
 }
 
-#' Correlation of the errors of a co-ordinate between points
-#' @param settings List: `range`, `share`.
-#' @noRd
-together_at <- function(xyz, settings) {
-  n <- nrow(xyz)
-  if (settings$range == 0) return(diag(n))
-  together <- settings$share * exp(-as.matrix(stats::dist(xyz))^2 / (2 * settings$range^2))
-  diag(together) <- 1
-  unname(together)
-}
-
 #' Mean change of curves and patches, with correlated errors of its points
 #' @param covariance Of [change_covariance()].
 #' @noRd
@@ -377,8 +369,10 @@ changed_parts <- function(points, covariance, settings) {
       sqrt(max(0, mean(covariance[known, known])) + mean(points$se_growth[known])^2)
     } else NA
     change <- if (length(known)) mean(points$change[known]) else NA_real_
+    df <- stats::median(points$df[known])
     data.frame(level = points$level[rows[1]], part = points$part[rows[1]], change = change,
-               se = se, detectable = 1.96 * se, p = 2 * stats::pnorm(-abs(change / se)))
+               se = se, detectable = stats::qt(0.975, df) * se,
+               p = 2 * stats::pt(-abs(change / se), df))
   })
   parts <- do.call(rbind, unname(each))
   parts$p_holm <- stats::p.adjust(parts$p, "holm")
@@ -400,9 +394,12 @@ changed_measurements <- function(known, table, growth, unit, draws = 200) {
   grown <- if (is.null(growth)) list(growth = 0, se = 0) else measured_growth(a$measurement, growth)
   se <- sqrt(a$se^2 + b$se^2 + grown$se^2)
   change <- after - before - grown$growth
-  p <- 2 * stats::pnorm(-abs(change / se))
+  # The errors of all points that it needs: those of the surface are most
+  df <- stats::median(known$df, na.rm = TRUE)
+  p <- 2 * stats::pt(-abs(change / se), df)
   data.frame(measurement = a$measurement, before = before, after = after,
-             growth = grown$growth, change = change, se = se, detectable = 1.96 * se, p = p,
+             growth = grown$growth, change = change, se = se,
+             detectable = stats::qt(0.975, df) * se, p = p,
              p_holm = stats::p.adjust(p, "holm"), unit = sub("^unit", unit, a$unit))
 }
 
@@ -431,7 +428,7 @@ print.visit_comparison <- function(x, most = 6, ...) {
     best <- surface[which.max(abs(surface$change)), ]
     if (nrow(best)) {
       known <- if (is.na(best$se)) c("", "") else
-        sprintf(c(" +- %.2g", " (detectable from %.2g)"), c(best$se, best$detectable))
+        sprintf(c(" +- %.2g", " (called from %.2g)"), c(best$se, x$limit * best$se))
       cat(sprintf("  largest change %.3g%s%s at %s %s%s\n", best$change, known[1], unit, best$part,
                   best$point, known[2]))
     }

@@ -18,7 +18,7 @@ test_that("the standard error of repeats is that of the simulated noise", {
   expect_equal(free$counts, c(persons = 60, shapes = 120, df = 60))
   few <- repeated(3, noise = 0.3)
   own <- few$points[few$points$level == "surface", ]
-  expect_equal(length(unique(own$se)), length(unique(own$part)))
+  expect_lte(length(unique(own$se)), length(unique(own$part)))
 })
 
 test_that("share and range of the correlation are found", {
@@ -57,4 +57,30 @@ test_that("visits are compared with the errors of repeats, and wrong ones are re
   expect_crestline_error(compare_visits(shape, shape, error = strange), "another scheme")
   expect_crestline_error(visit_errors(list(shape)), "twice")
   expect_crestline_error(visit_errors(list(shape, shape), c("a", "b")), "twice")
+})
+
+test_that("variances of few repeats are drawn together, as much as they are alike", {
+  # The means of variances that chance alone makes differ, and of such as differ by themselves
+  df <- rep(6, 400)
+  alike <- 0.04 * with_seed(1, stats::rchisq(400, 6)) / 6
+  found <- prior_variance(alike, df)
+  expect_equal(found$variance, 0.04, tolerance = 0.05)
+  expect_gt(found$df, 60)
+  true <- 0.04 * 10 / with_seed(2, stats::rchisq(400, 10))
+  found <- prior_variance(true * with_seed(3, stats::rchisq(400, 6)) / 6, df)
+  expect_equal(found$df, 10, tolerance = 0.35)
+  expect_equal(found$variance, 0.04, tolerance = 0.1)
+  expect_identical(prior_variance(alike[1:2], df[1:2]), list(variance = 0, df = 0))
+  few <- repeated(3, noise = 0.3)
+  surface <- few$points[few$points$level == "surface", ]
+  expect_true(all(surface$df > 3))
+  expect_lt(diff(range(surface$se)), 0.15)
+  expect_equal(unique(repeated(40, noise = 0.3)$points$df), 40)
+})
+
+test_that("a change is judged by the degrees of freedom of its error", {
+  expect_equal(normal_score(c(-3, 2, 0), c(5, Inf, 4)),
+               c(stats::qnorm(stats::pt(-3, 5)), 2, 0))
+  expect_equal(normal_score(60, 3), -stats::qnorm(stats::pt(-60, 3)))
+  expect_identical(normal_score(NA_real_, 3), NA_real_)
 })

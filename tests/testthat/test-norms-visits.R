@@ -15,7 +15,7 @@ test_that("a change is found where it is, and its size is right", {
   expect_equal(own$change[at], 4, tolerance = 0.1)
   expect_true(own$called[at])
   expect_equal(own$se[at], sqrt(2) * 0.1, tolerance = 0.1)
-  expect_equal(own$detectable, 1.96 * own$se)
+  expect_equal(own$detectable, stats::qnorm(0.975) * own$se)
   far <- as.matrix(stats::dist(own[c("x", "y", "z")]))[at, ] > 22
   expect_lt(max(abs(own$change[far])), 0.6)
   expect_true(found$converged)
@@ -112,7 +112,7 @@ test_that("the limit is that of the largest of many errors", {
   expect_equal(limit(visit_settings(range = 1e6, draws = 4000)), 1.96, tolerance = 0.05)
   # A mean of errors that go together has their error.
   own <- data.frame(level = "surface", part = "a", point = 1:4, change = 1, se_growth = 0,
-                    score = 2)
+                    score = 2, df = Inf)
   part <- function(covariance) changed_parts(own, covariance, visit_settings())$se
   expect_equal(part(diag(0.25, 4)), 0.25)
   expect_equal(part(matrix(0.25, 4, 4)), 0.5)
@@ -147,13 +147,14 @@ test_that("errors of change are those of drawn errors after the registration", {
 test_that("without points in common there is no covariance", {
   bare <- small_patient()
   bare$points$se <- NA_real_
-  known <- list(before = bare, after = bare, error = NULL, settings = visit_settings())
+  known <- list(before = bare, after = bare, error = NULL, settings = visit_settings(),
+                df = rep(Inf, nrow(bare$points)))
   expect_true(all(is.na(change_covariance(known, rep(NA, nrow(bare$points))))))
 })
 
 test_that("an error of growth is that of all points of a part alike", {
   own <- data.frame(level = "surface", part = "a", point = 1:4, change = 1, se_growth = 0.3,
-                    score = 2)
+                    score = 2, df = Inf)
   expect_equal(changed_parts(own, diag(0.25, 4), visit_settings())$se, sqrt(0.25^2 + 0.3^2))
 })
 
@@ -203,7 +204,7 @@ test_that("points that are missing are left out of picture and page, which say s
   on.exit(grDevices::dev.off(), add = TRUE)
   expect_identical(plot(found, engine = "picture"), found)
   expect_identical(plot(found, "score", engine = "picture"), found)
-  expect_output(print(found), "[(]detectable from")
+  expect_output(print(found), "[(]called from")
   found$points[c("score", "se", "detectable")] <- NA
   said <- utils::capture.output(print(found))
   expect_match(said, "largest change [-0-9.e]+( mm)? at [^(]+$", all = FALSE)
