@@ -304,7 +304,7 @@ lesions <- function(norms, settings, faces) {
         mean((hit & near)[off_middle]), sum(off_middle))
     # The same on the other side too, by the norm's own points
     partner <- norms$points$partner[at]
-    put <- height * data$scale * t(own("bump")(distance[, partner], 15))
+    put <- height * data$scale * t(own("bump")(lesion_distances(settings)[, partner], 15))
     data$y <- data$y + cbind(put, put, put) * rep(as.vector(norms$surface$normal), each = faces)
     found <- looked_at(norms, data, settings$noise)
     scan <- scan_near(found$surface$plain, norms, distance, at) |
@@ -312,6 +312,12 @@ lesions <- function(norms, settings, faces) {
     say(sprintf("lesion %g mm on both sides, off the mid-line: scan", height),
         mean(scan[off_middle]), sum(off_middle))
   }
+}
+
+# Distances by which lesions are drawn: those of the template, which is larger than a norm's mean
+lesion_distances <- function(settings) {
+  model <- own("cohort_model")(own("cohort_template")(), settings)
+  as.matrix(stats::dist(model$places[model$surface, ]))
 }
 
 # Whether the scan finds something, within 15 mm of a place. What is on both sides has one value on
@@ -324,6 +330,7 @@ scan_near <- function(scan, norms, distance, at) {
 
 healed <- function(norms, settings, faces) {
   field <- own("prepared_field")(norms, "surface")
+  distance <- lesion_distances(settings)
   for (case in list(c(0, 15), c(3, 15), c(5, 30), c(8, 45))) {
     data <- new_faces(norms, settings, faces, 5000 + seed,
                       data.frame(height = case[1], radius = case[2]))
@@ -339,7 +346,7 @@ healed <- function(norms, settings, faces) {
       at <- match(data$lesions$point[i], norms$points$point)
       # What was put on
       put <- if (is.na(at)) 0 * along else {
-        case[1] * own("bump")(as.matrix(stats::dist(field$points))[at, ], case[2])
+        case[1] * own("bump")(distance[at, ], case[2])
       }
       sd <- sqrt(own("variance_along")(field$normal, made$variance * face$spread^2)) / data$scale[i]
       out <- made$out
