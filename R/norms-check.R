@@ -203,14 +203,15 @@ check_norm_basis <- function(norms, name, rounding = 1e-6) {
 }
 
 #' Whether the spread of co-ordinates is a mean of those of the ages, and components are axes
-#' @param rounding Of `sd` and of loadings.
+#' @param rounding Of loadings.
 #' @noRd
 check_norm_field <- function(norms, name, rounding = 1e-4) {
   field <- norms[[name]]
+  unit <- norms$settings$unit / 10
   refuse <- function(problem) refuse_norm(paste0("components-", name, ".csv"), problem)
   spread <- do.call(rbind, lapply(field$columns$groups, function(one) one$spread))
-  low <- exp(apply(spread, 2, min) / 2) - rounding
-  high <- exp(apply(spread, 2, max) / 2) + rounding
+  low <- exp(apply(spread, 2, min) / 2) - unit
+  high <- exp(apply(spread, 2, max) / 2) + unit
   if (!all(field$sd >= low & field$sd <= high)) {
     refuse(sprintf("`sd` is no mean of the spreads in spread-%s.csv", name))
   }

@@ -30,7 +30,7 @@ fit_field <- function(y, points, normal, people, plan, partner = NULL) {
   freedom <- nrow(u) / max(1, nrow(u) - plan$components - 10)
   kernel <- lapply(fit_kernel(left, points, plan, !is.null(partner)), `*`, freedom)
   list(points = points, normal = normal, columns = columns, along = along,
-       sd = rounded_to(sd, 1e-4), vectors = rounded_to(parts$vectors, 1e-4),
+       sd = rounded_to(sd, unit / 10), vectors = rounded_to(parts$vectors, 1e-4),
        values = signif(parts$values, 6), kernel = signif(kernel$own, 6),
        mirrored = signif(kernel$mirrored, 6), ranges = plan$ranges, partner = partner)
 }

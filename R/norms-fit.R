@@ -144,8 +144,8 @@ print.norm_settings <- function(x, ...) {
 #'     over the difference below which 90 % of all pairs are);
 #'   * `about`, `scheme`, `settings`.
 #' @section Errors: of class `crestline_error`: too few faces, a formula of another form, a column
-#'   that is missing, or (with `share`) a rule of privacy that is not kept; the error gives the
-#'   figures.
+#'   that is missing, radii of `settings` that are of another unit than the meshes, or (with `share`)
+#'   a rule of privacy that is not kept; the error gives the figures.
 #' @section Warnings: of class `crestline_norm_doubt`: measurements that some face lacks are left
 #'   out; points were estimated.
 #' @template glossary
@@ -171,11 +171,14 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   check_flags(share, progress)
   check_class(settings, "norm_settings", "settings", "norm_settings()")
   about <- check_about(about)
+  # Folds, and choices of some faces, go by the order: by one that is not that of the sample.
+  sample <- sample[order(names(sample), method = "radix")]
   scheme <- sample$template$scheme
   table <- norm_measurements(table, scheme)
   people <- norm_people(formula, data, names(sample))
   made <- norm_data(sample, if (!is.null(table)) measurement_plan(table, scheme),
                     settings$unit)
+  check_norm_lengths(as.matrix(made$points[c("x", "y", "z")]), settings)
   made$people <- people
   made$table <- table
   made <- transformed_values(made)
@@ -203,6 +206,22 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   check_shared_ages(norms)
   norms$counts <- merged_counts(norms$counts)
   norms
+}
+
+#' Whether the lengths of the settings are those of a surface of this size, and not of another unit
+#' @noRd
+check_norm_lengths <- function(xyz, settings) {
+  apart <- as.matrix(stats::dist(xyz))
+  diag(apart) <- Inf
+  step <- stats::median(apply(apart, 1, min))
+  size <- sqrt(mean(rowSums(sweep(xyz, 2, colMeans(xyz))^2)))
+  if (min(settings$radii) < size && max(settings$radii) > step) return(invisible())
+  crestline_abort(
+    sprintf("`settings`: radii of %s do not fit points that are %.2g apart, %.2g from their centre.",
+            toString(signif(settings$radii, 3)), step, size),
+    paste("Give `radii`, `ranges`, `bins` and `unit` of norm_settings() in the unit of the meshes;",
+          "the defaults are for faces in mm."), stage = "norms"
+  )
 }
 
 #' The table of measurements: that of the face for its scheme, where none is given

@@ -113,5 +113,5 @@ wider_by <- function(field, scan, distance) {
   table <- field$healing[off <= min(off), ]
   apart <- row_lengths(sweep(field$points[table$at, , drop = FALSE], 2, field$points[scan$at, ]))
   one <- table[which.min(apart), ]
-  pmax(1, one$base + one$peak * bump(distance, max(distance)))
+  pmax(1, one$base + one$peak * bump(distance, max(distance, .Machine$double.xmin)))
 }

@@ -91,8 +91,8 @@ excess_variance <- function(field, found, se, se_norm) {
 
 #' The scan of one face: every centre, radius, and one or both sides
 #'
-#' @return List: `z` (k x bumps), `largest`, `p`, `at` (row), `radius`, `both`, `z_at` (with its
-#'   sign).
+#' @return List: `z` (k x bumps), `largest`, `p`, `at` (row), `radius`, `both` (FALSE at a point that
+#'   has no other as its partner: there both bumps are the same), `z_at` (with its sign).
 #' @noRd
 scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$points))) {
   t <- lapply(field$weights, function(w) crossprod(found$u, w))
@@ -104,6 +104,7 @@ scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$poi
   free[but, ] <- 0
   best <- arrayInd(which.max(abs(free)), dim(z))
   list(z = z, largest = abs(free[best]), at = best[1], radius = field$scan$radii[best[2]],
-       both = field$scan$both[best[2]], z_at = free[best],
+       both = field$scan$both[best[2]] && isTRUE(field$partner[best[1]] != best[1]),
+       z_at = free[best],
        p = tail_p(abs(free[best]), field$scan$quantiles))
 }

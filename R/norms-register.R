@@ -129,7 +129,7 @@ norm_data <- function(sample, plan, unit) {
     size[i] <- unbiased_log_size(laid$size, own$se[match(points$point, paste(own$part, own$point))])
     if (paired) off[i, ] <- asymmetric_part(laid$laid, points$partner)[points$side, ]
   }
-  points$se_norm <- sample_errors(sample, points$point, scale)
+  points$se_norm <- sample_errors(sample, points$point, scale, unit / 10)
   measured <- if (length(plan)) unbiased_values(unname(sample$shapes), plan)
   list(points = points, triangles = reference$triangles, y = y, off = off,
        values = cbind(size = size, measured), estimated = reference$estimated)
@@ -144,7 +144,7 @@ places_array <- function(sample) {
 
 #' Root mean square standard errors of points, at the reference's size; NA where none is known
 #' @noRd
-sample_errors <- function(sample, names, scale) {
+sample_errors <- function(sample, names, scale, unit) {
   squares <- 0
   known <- 0
   for (i in seq_along(sample$shapes)) {
@@ -154,7 +154,7 @@ sample_errors <- function(sample, names, scale) {
     squares <- squares + ifelse(is.na(se), 0, se^2)
     known <- known + !is.na(se)
   }
-  rounded_to(ifelse(known > 0, sqrt(squares / pmax(known, 1)), NA_real_), 1e-4)
+  rounded_to(ifelse(known > 0, sqrt(squares / pmax(known, 1)), NA_real_), unit)
 }
 
 point_columns <- function(shape) as.matrix(shape$points[c("x", "y", "z")])

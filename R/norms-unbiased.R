@@ -18,12 +18,16 @@ unbiased_values <- function(shapes, plan, draws = 2, some = 20) {
     value <- measure_places(plan, array(xyz, c(dim(xyz), 1)))[, 1]
     spread <- place_errors(shapes[[i]], unknown, together, rows)
     # Draws of one face must not go together with those of another
-    seed <- strtoi(substr(rlang::hash(ids[i]), 1, 7), 16L)
-    bias <- drawn_errors(plan, xyz, value, spread, draws, seed)$bias
+    bias <- drawn_errors(plan, xyz, value, spread, draws, id_seed(ids[i]))$bias
     value - ifelse(is.na(bias), 0, bias)
   }, numeric(length(plan))))
   matrix(value, length(shapes), dimnames = list(NULL, names(plan)))
 }
+
+#' A seed for a face by its name, so that its draws do not go together with those of another face, and
+#' are the same in any sample
+#' @noRd
+id_seed <- function(id) strtoi(substr(rlang::hash(id), 1, 7), 16L)
 
 not_above_errors <- function() "it is not larger than what its errors add"
 

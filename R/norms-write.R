@@ -21,7 +21,7 @@
 #' * `sexes`: their names. The column `sex` of `mean-*`, `spread-*` and `basis-*` is the number of
 #'   one of them;
 #' * `units`: what a whole number is worth. `values`: in `mean-values.csv`; `points`: in all other
-#'   `mean-*`; `spread`: in `spread-*`; `loadings`: in `components-*`;
+#'   `mean-*`; `spread`: in `spread-*`; `loadings` and `sd`: in `components-*`;
 #' * `splines`: `k`, `k_spread` and `range` of the splines. `values` are for `mean-values.csv` and
 #'   `spread-values.csv`, `points` for all others;
 #' * `surface` and `asymmetry` (absent without left-right pairs): the variances of the components as
@@ -239,7 +239,8 @@ norm_tables <- function(norms) {
   for (name in intersect(c("surface", "asymmetry"), names(sets))) {
     field <- norms[[name]]
     # + 0: no negative zeros
-    loadings <- data.frame(sd = round(field$sd * 1e4), round(field$vectors * 1e4) + 0)
+    loadings <- data.frame(sd = round(field$sd / (norms$settings$unit / 10)),
+                           round(field$vectors * 1e4) + 0)
     tables[[paste0("components-", name)]] <- stats::setNames(
       loadings, c("sd", paste0("v", seq_len(ncol(field$vectors))))
     )
@@ -297,7 +298,8 @@ norm_header <- function(norms) {
   }
   list(format = "crestline-norms", version = norm_version(), about = norms$about,
        scheme = norms$scheme, n = norms$n, sexes = I(norms$ages$sex), names = as.list(norms$names),
-       units = list(values = 1e-6, points = norms$settings$unit, spread = 1e-3, loadings = 1e-4),
+       units = list(values = 1e-6, points = norms$settings$unit, spread = 1e-3, loadings = 1e-4,
+                    sd = norms$settings$unit / 10),
        splines = list(values = norms$values$size, points = norms$surface$columns$size),
        surface = field(norms$surface), asymmetry = field(norms$asymmetry),
        levels = limit_levels(), limits = norms$limits, privacy = norms$privacy,

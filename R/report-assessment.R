@@ -67,8 +67,8 @@ assessment_verdicts <- function(x) {
   answers <- page_table(head, rows, "answers")
   tags$section(tags$h2("In short"), answers, unassessed_warning(x), tags$p(
     class = "note",
-    sprintf("A face \"differs\" where p, corrected for six questions (Holm), is at most %g. By",
-            x$alpha),
+    sprintf("A face \"differs\" where p, corrected for %s (Holm), is at most %g. By",
+            amount(sum(!is.na(x$verdicts$p)), "question"), x$alpha),
     "construction this also happens in up to that share of people of the norm. \"No difference",
     "shown\" does not mean that there is none. Left and right are the person's own."
   ))
@@ -87,10 +87,11 @@ verdict_place <- function(one, x) {
   switch(
     one$family, size = paste("centile", centile_words(x$values$centile[1])), components = "",
     map = paste(part, outward_words(x$points$z_map[at]), sep = ", "),
-    asymmetry = sprintf("%s, further %s than on the other side", part,
+    asymmetry = sprintf("%s, further %s against the other side than usual", part,
                         outward_words(x$points$z_asymmetry[at])),
     scan = if (nrow(x$findings)) paste(c(finding_place(x$findings[1, ], x), if (
-      nrow(x$findings) > 1) sprintf("and %d more", nrow(x$findings) - 1)), collapse = " ") else part
+      nrow(x$findings) > 1) sprintf("and %d more", nrow(x$findings) - 1)), collapse = " ") else
+        paste0(one$where, "; not replaced, as too little of the face is left")
   )
 }
 

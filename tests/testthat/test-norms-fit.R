@@ -14,24 +14,63 @@ test_that("a norm has the sizes that it says, and no face", {
   expect_output(print(summary(norms)), "sex")
 })
 
+# The same faces, each changed by a function of its points (k x 3) and its number.
+changed_faces <- function(sample, change, larger = 1) {
+  made <- unclass(sample)
+  made[] <- unname(lapply(seq_along(made), function(i) {
+    shape <- made[[i]]
+    shape$points[c("x", "y", "z")] <- as.data.frame(change(point_columns(shape), i))
+    shape$points$se <- larger * shape$points$se
+    shape
+  }))
+  structure(made, class = class(sample))
+}
+
 test_that("fits do not depend on the session, nor on pose and order of the faces", {
   cohort <- small_cohort(60)
+  # Faces of one age: which fold they are in must not go by their order
+  cohort$data$age <- pmin(15, pmax(5, round(cohort$data$age)))
   fit <- function(sample, data) {
-    fit_norms(sample, ~ s(age, by = sex), data, table = ball_measurements(),
-              settings = small_settings(), progress = FALSE)
+    norms <- fit_norms(sample, ~ s(age, by = sex), data, table = ball_measurements(),
+                       settings = small_settings(), progress = FALSE)
+    unclass(norms)[names(norms) != "cache"]
   }
   a <- fit(cohort$sample, cohort$data)
   set.seed(99)
-  b <- fit(cohort$sample[60:1], cohort$data)
+  expect_equal(fit(cohort$sample[60:1], cohort$data[sample(60), ]), a, tolerance = 1e-12)
+  turned <- changed_faces(cohort$sample, function(xyz, i) {
+    sweep(xyz %*% rotation_about(c(i / 9, 1, -i / 20)), 2, c(i, -5, 3), `+`)
+  })
+  expect_gt(abs(turned[[2]]$points$x[1] - cohort$sample[[2]]$points$x[1]), 1)
+  b <- fit(turned, cohort$data)
   # Coefficients are rounded, so that the last digit of one in a thousand may differ.
-  at <- function(norms) {
-    expected_columns(norms$values, c(7, 9, 12), factor(rep("male", 3), norms$ages$sex))
+  expect_equal(b$points, a$points, tolerance = 1e-4)
+  expect_equal(b$table, a$table, tolerance = 1e-2)
+  expect_equal(b$limits, a$limits, tolerance = 1e-2)
+  expect_equal(b$surface$kernel, a$surface$kernel, tolerance = 1e-2)
+})
+
+test_that("a norm in another unit gives the same z, and settings of another unit are refused", {
+  cohort <- small_cohort(60)
+  shape <- small_patient()
+  looked <- function(by, settings) {
+    larger <- changed_faces(cohort$sample, function(xyz, i) by * xyz, by)
+    norms <- fit_norms(larger, ~ s(age, by = sex), cohort$data, settings = settings,
+                       progress = FALSE)
+    shape$points[c("x", "y", "z")] <- as.data.frame(by * point_columns(shape))
+    shape$points$se <- by * shape$points$se
+    suppressWarnings(assess(shape, norms, 10, "female"))
   }
-  expect_equal(at(a)$mean[, 1:9], at(b)$mean[, 1:9], tolerance = 1e-5)
-  expect_equal(at(a)$sd, at(b)$sd, tolerance = 1e-2)
-  expect_equal(a$limits, b$limits, tolerance = 1e-2)
-  expect_equal(a$counts, b$counts)
-  expect_equal(abs(a$surface$vectors), abs(b$surface$vectors), tolerance = 5e-3)
+  plain <- looked(1, small_settings())
+  settings <- small_settings()
+  for (name in c("radii", "ranges", "bins", "unit")) settings[[name]] <- settings[[name]] / 1000
+  metres <- looked(1 / 1000, settings)
+  scores <- c("z_map", "z_scan", "z_asymmetry", "d2")
+  expect_equal(metres$points[scores], plain$points[scores], tolerance = 5e-3)
+  expect_equal(metres$limits, plain$limits, tolerance = 5e-3)
+  expect_equal(1000 * metres$points$distance, plain$points$distance, tolerance = 5e-3)
+  expect_crestline_error(looked(1 / 1000, small_settings()), c("radii of 12, 18", "0.018", "unit"))
+  expect_crestline_error(looked(1e5, small_settings()), c("radii of 12, 18", "unit"))
 })
 
 test_that("held-out faces of a new cohort are beyond limits as often as the level says", {

@@ -31,6 +31,8 @@ test_that("faces that the field describes need no wider interval, others do", {
   expect_equal(wider[c(1, 3)], c(twice$base[5] + twice$peak[5], twice$base[5]))
   rounded <- list(at = table$at[1], radius = 30 * (1 + 1e-15))
   expect_identical(wider_by(field, rounded, c(0, 10, 20)), wider)
+  # A disc of its centre alone
+  expect_equal(wider_by(field, rounded, 0), wider[1])
 })
 
 test_that("a disc has at most its share of the points", {

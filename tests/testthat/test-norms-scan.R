@@ -30,3 +30,24 @@ test_that("the scan's statistic has variance 1, and does not see pose and scale"
     expect_gt(sum(case[[1]] * lesion), abs(sum(other * lesion)) / spread)
   }
 })
+
+test_that("what is found at a point without another as its partner is on one side", {
+  norms <- small_norms()
+  norms$cache <- new.env()
+  # Whatever the limits say, both bumps are the same there
+  norms$surface$scan$s[, norms$surface$scan$both] <- 0.01
+  alone <- which(norms$surface$partner == seq_along(norms$surface$partner))
+  lost <- c(7, norms$surface$partner[7])
+  norms$surface$partner[lost] <- norms$points$partner[lost] <- NA
+  field <- prepared_field(norms, "surface")
+  for (at in c(alone, 7L, 3L)) {
+    found <- list(u = rowSums(field$weights[[1]][, at, drop = FALSE]), excess = numeric(105))
+    but <- replace(rep(TRUE, 35), at, FALSE)
+    scan <- scanned_face(field, found, 10, "female", but)
+    expect_identical(scan$at, at)
+    expect_identical(scan$both, at == 3)
+    found$spread <- rep(1, 105)
+    healed <- heal_face(field, found, 10, "female", rep(FALSE, 35), 1)
+    expect_true(all(is.finite(healed$u)) && all(healed$found$at %in% seq_len(35)))
+  }
+})

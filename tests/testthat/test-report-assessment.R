@@ -50,10 +50,21 @@ test_that("the answer on asymmetry names its direction, and measurements their c
   row <- data.frame(family = "asymmetry", where = x$points$point[3])
   x$points$z_asymmetry[3] <- -5
   expect_identical(verdict_place(row, x),
-                   paste0(x$points$part[3], ", further inward than on the other side"))
+                   paste0(x$points$part[3], ", further inward against the other side than usual"))
   row <- data.frame(family = "measurements", where = x$values$name[2])
   x$values$centile[2] <- 0.05
   expect_identical(verdict_place(row, x), paste0(x$values$name[2], ", centile < 0.1"))
+})
+
+test_that("questions that were answered are counted, and a place that is not replaced is named", {
+  x <- small_assessment()
+  expect_match(page_text(x), "corrected for 6 questions", fixed = TRUE)
+  x$verdicts$p[6] <- NA
+  expect_match(page_text(x), "corrected for 5 questions", fixed = TRUE)
+  x$findings <- x$findings[0, ]
+  row <- data.frame(family = "scan", where = "mid 3 3 and mid 5 3")
+  expect_identical(verdict_place(row, x),
+                   "mid 3 3 and mid 5 3; not replaced, as too little of the face is left")
 })
 
 test_that("a scan with larger errors than the norm's is said to be so, with its wider z", {
