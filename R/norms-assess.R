@@ -320,7 +320,7 @@ print.assessment <- function(x, most = 6, ...) {
     cat(sprintf("  %-13s %-20s p %.3g (Holm %.3g)%s\n", rows$family, rows$verdict, rows$p,
                 rows$p_holm, ifelse(is.na(rows$where), "", paste0(", ", rows$where))), sep = "")
     values <- x$values[!grepl("^component ", x$values$name) & !is.na(x$values$z), ]
-    values <- values[c(1, 1 + order(-abs(values$z[-1]))), ]
+    values <- values[order(values$name != "size", -abs(values$z)), ]
     for (i in seq_len(min(most, nrow(values)))) cat("  ", value_words(values[i, ]), "\n", sep = "")
     for (i in seq_len(nrow(x$findings))) {
       cat("  ", finding_words(x$findings[i, ], x$unit), "\n", sep = "")
@@ -334,8 +334,9 @@ print.assessment <- function(x, most = 6, ...) {
                 100 * mean(x$points$p_tangential < 0.05, na.rm = TRUE)))
     lost <- c(sum(!x$points$assessed), sum(!is.na(x$values$reason)))
     if (any(lost > 0)) {
-      cat(sprintf("  not assessed, as points are missing: %s, %s\n",
-                  amount(lost[1], "surface point"), amount(lost[2], "value")))
+      why <- toString(unique(x$values$reason[!is.na(x$values$reason)]))
+      cat(sprintf("  not assessed: %s (missing), %s%s\n", amount(lost[1], "surface point"),
+                  amount(lost[2], "value"), if (lost[2]) sprintf(" (%s)", why) else ""))
       if (lost[1]) cat("    of ", lost_words(x$points$part, !x$points$assessed), "\n", sep = "")
     }
     invisible(x)

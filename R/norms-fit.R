@@ -181,7 +181,7 @@ fit_norms <- function(sample, formula = ~ s(age, by = sex), data, table = NULL, 
   check_norm_lengths(as.matrix(made$points[c("x", "y", "z")]), settings)
   made$people <- people
   made$table <- table
-  made <- transformed_values(made)
+  made <- transformed_values(made, names(sample))
   plan <- norm_plan(settings, people)
   if (share) check_shared_components(plan, length(people$age))
   parts <- fit_parts(made, seq_along(people$age), plan)
@@ -251,7 +251,12 @@ norm_plan <- function(settings, people) {
 
 #' Measurements on the scale on which they are smoothed; those that some face lacks are left out
 #' @noRd
-transformed_values <- function(made) {
+transformed_values <- function(made, ids) {
+  small <- ids[!is.finite(made$values[, 1])]
+  if (length(small)) {
+    crestline_abort(sprintf("the size of %s: %s.", shorten(small, 8), not_above_errors()),
+                    "Leave these faces out, or correct the `se` of their points.", stage = "norms")
+  }
   whole <- colSums(!is.finite(made$values)) == 0
   lost <- colnames(made$values)[!whole]
   if (length(lost)) {

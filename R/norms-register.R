@@ -135,13 +135,6 @@ norm_data <- function(sample, plan, unit) {
        values = cbind(size = size, measured), estimated = reference$estimated)
 }
 
-#' k x 3 x n: every place of the shapes of a sample once
-#' @noRd
-places_array <- function(sample) {
-  each <- lapply(unname(sample$shapes), places_of)
-  array(unlist(each), c(dim(each[[1]]), length(each)))
-}
-
 #' Root mean square standard errors of points, at the reference's size; NA where none is known
 #' @noRd
 sample_errors <- function(sample, names, scale, unit) {

@@ -27,7 +27,7 @@ unbiased_values <- function(shapes, plan, draws = 2, some = 20) {
 #' A seed for a face by its name, so that its draws do not go together with those of another face, and
 #' are the same in any sample
 #' @noRd
-id_seed <- function(id) strtoi(substr(rlang::hash(id), 1, 7), 16L)
+id_seed <- function(id) strtoi(substr(rlang::hash(enc2utf8(id)), 1, 7), 16L)
 
 not_above_errors <- function() "it is not larger than what its errors add"
 

@@ -59,6 +59,13 @@ test_that("a measurement that is not larger than what its errors add is not asse
   found <- looked(shape)$values
   expect_true(is.na(found$z[1]))
   expect_match(found$reason[1], "not larger than what its errors add")
+  # The print says so, also where no value is left
+  x <- suppressWarnings(assess(shape, small_norms(), age = 10, sex = "female"))
+  x$values <- x$values[c(1, grep("component", x$values$name)), ]
+  x$values$reason[3] <- "a point that it needs is missing"
+  text <- paste(utils::capture.output(print(x)), collapse = " ")
+  expect_match(text, paste("2 values (it is not larger than what its errors add, a point that it",
+                           "needs is missing)"), fixed = TRUE)
 })
 
 test_that("z, centile and expectation fit each other", {

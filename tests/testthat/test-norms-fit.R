@@ -199,4 +199,11 @@ test_that("what cannot be a norm is refused by name", {
   expect_crestline_error(fit(about = list(owner = "me")), "`about`")
   expect_crestline_error(fit(table = data.frame(a = 1)), "`table`")
   expect_crestline_error(norm_settings(radii = 0), "`radii`")
+  noisy <- unclass(cohort$sample)
+  noisy[[3]]$points$se <- 100
+  expect_crestline_error(
+    fit_norms(structure(noisy, class = class(cohort$sample)), data = cohort$data,
+              settings = small_settings(), progress = FALSE),
+    c("size of person 03", "not larger than what its errors add")
+  )
 })
