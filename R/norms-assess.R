@@ -351,9 +351,9 @@ value_words <- function(row) {
 }
 
 finding_words <- function(row, unit) {
-  sprintf("found at %s%s: height %.2g +- %.2g %s, radius %.3g, volume %.3g (z %.2g)", row$point,
-          if (row$both) " (both sides)" else "", row$height, row$sd, unit, row$radius, row$volume,
-          row$z)
+  sprintf("found at %s%s: height %.2g +- %.2g %s, radius %.3g %s, volume %.3g %s^3 (z %.2g)",
+          row$point, if (row$both) " (both sides)" else "", row$height, row$sd, unit, row$radius,
+          unit, row$volume, unit, row$z)
 }
 
 #' Whether a larger error of the scan changes a z that is shown

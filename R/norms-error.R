@@ -275,6 +275,7 @@ in_own_frame <- function(drawn, xyz, draws) {
 #' @noRd
 own_frame <- function(xyz) {
   off <- xyz[!is.na(xyz[, 1]), , drop = FALSE]
+  if (!nrow(off)) return(diag(3))
   off <- sweep(off, 2, off[1, ])
   far <- off[which.max(rowSums(off^2)), ]
   if (sum(far^2) == 0) return(diag(3))

@@ -441,8 +441,10 @@ print.visit_comparison <- function(x, most = 6, ...) {
     }
     found <- x$measurements[which(x$measurements$p_holm <= x$alpha), ]
     for (i in seq_len(min(most, NROW(found)))) {
-      cat(sprintf("  %s: %.4g to %.4g, change %.3g +- %.2g\n", found$measurement[i],
-                  found$before[i], found$after[i], found$change[i], found$se[i]))
+      own <- found$unit[i]
+      cat(sprintf("  %s: %.4g to %.4g, change %.3g +- %.2g%s\n", found$measurement[i],
+                  found$before[i], found$after[i], found$change[i], found$se[i],
+                  if (own %in% c("1", "unit")) "" else paste0(" ", own)))
     }
     invisible(x)
   })

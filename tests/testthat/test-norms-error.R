@@ -107,3 +107,11 @@ test_that("what is taken off a face does not depend on the others, nor on their 
   expect_false(any(duplicated(vapply(c("a", "b", "A", "\u00e4"), id_seed, 0L))))
   expect_identical(id_seed(iconv("\u00e4", "UTF-8", "latin1")), id_seed("\u00e4"))
 })
+
+test_that("a shape without points has no measurements, and that is said", {
+  shape <- small_patient()
+  shape$points[c("x", "y", "z")] <- NA_real_
+  found <- measurements(shape, ball_measurements(), error = 0.1)
+  expect_true(all(is.na(found[c("value", "se", "bias")])))
+  expect_match(found$reason[1], "points are missing")
+})
