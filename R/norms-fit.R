@@ -144,8 +144,8 @@ print.norm_settings <- function(x, ...) {
 #'     over the difference below which 90 % of all pairs are);
 #'   * `about`, `scheme`, `settings`.
 #' @section Errors: of class `crestline_error`: too few faces, a formula of another form, a column
-#'   that is missing, radii of `settings` that are of another unit than the meshes, or (with `share`)
-#'   a rule of privacy that is not kept; the error gives the figures.
+#'   that is missing, radii of `settings` in another unit than the meshes, a face whose errors are as
+#'   large as it is, or (with `share`) a rule of privacy that is not kept; the error gives the figures.
 #' @section Warnings: of class `crestline_norm_doubt`: measurements that some face lacks are left
 #'   out; points were estimated.
 #' @template glossary
@@ -217,7 +217,7 @@ check_norm_lengths <- function(xyz, settings) {
   size <- sqrt(mean(rowSums(sweep(xyz, 2, colMeans(xyz))^2)))
   if (min(settings$radii) < size && max(settings$radii) > step) return(invisible())
   crestline_abort(
-    sprintf("`settings`: radii of %s do not fit points that are %.2g apart, %.2g from their centre.",
+    sprintf("`settings`: radii of %s do not fit points %.2g apart and %.2g from their centre.",
             toString(signif(settings$radii, 3)), step, size),
     paste("Give `radii`, `ranges`, `bins` and `unit` of norm_settings() in the unit of the meshes;",
           "the defaults are for faces in mm."), stage = "norms"

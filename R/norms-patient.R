@@ -91,8 +91,8 @@ excess_variance <- function(field, found, se, se_norm) {
 
 #' The scan of one face: every centre, radius, and one or both sides
 #'
-#' @return List: `z` (k x bumps), `largest`, `p`, `at` (row), `radius`, `both` (FALSE at a point that
-#'   has no other as its partner: there both bumps are the same), `z_at` (with its sign).
+#' @return List: `z` (k x bumps), `largest`, `p`, `at` (row), `radius`, `both` (FALSE at a point
+#'   without another as its partner: there both bumps are the same), `z_at` (with its sign).
 #' @noRd
 scanned_face <- function(field, found, age, sex, but = rep(FALSE, nrow(field$points))) {
   t <- lapply(field$weights, function(w) crossprod(found$u, w))

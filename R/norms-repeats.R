@@ -12,8 +12,8 @@
 #' independent. It is fitted to products of errors along the normals, over the cosine between these.
 #'
 #' With fewer than `pool` degrees of freedom all points of a curve or patch get one variance. A few
-#' repeats say little of a single patch. Its variance is therefore drawn towards that of all parts of
-#' its level, the more so the less these differ (Smyth). [compare_visits()] judges changes by
+#' repeats say little of a single patch. Its variance is therefore drawn towards that of all parts
+#' of its level, the more so the less these differ (Smyth). [compare_visits()] judges changes by
 #' Student's distribution with the degrees of freedom that result.
 #'
 #' @param shapes Two or more shapes of one scheme: a list of `shape`s, or a `shape_sample`.

@@ -24,8 +24,8 @@ unbiased_values <- function(shapes, plan, draws = 2, some = 20) {
   matrix(value, length(shapes), dimnames = list(NULL, names(plan)))
 }
 
-#' A seed for a face by its name, so that its draws do not go together with those of another face, and
-#' are the same in any sample
+#' A seed for a face by its name: its draws do not go together with those of another face, and are
+#' the same in any sample
 #' @noRd
 id_seed <- function(id) strtoi(substr(rlang::hash(enc2utf8(id)), 1, 7), 16L)
 

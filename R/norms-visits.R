@@ -357,6 +357,13 @@ visit_limit <- function(covariance, settings) {
   stats::quantile(largest, settings$level, names = FALSE)
 }
 
+#' From which change on points are called: the limit is of scores, see [normal_score()]
+#' @param points Data frame: `se`, `df`.
+#' @noRd
+called_from <- function(limit, points) {
+  -stats::qt(stats::pnorm(-limit, log.p = TRUE), points$df, log.p = TRUE) * points$se
+}
+
 #' Mean change of curves and patches, with correlated errors of its points
 #' @param covariance Of [change_covariance()].
 #' @noRd
@@ -428,7 +435,7 @@ print.visit_comparison <- function(x, most = 6, ...) {
     best <- surface[which.max(abs(surface$change)), ]
     if (nrow(best)) {
       known <- if (is.na(best$se)) c("", "") else
-        sprintf(c(" +- %.2g", " (called from %.2g)"), c(best$se, x$limit * best$se))
+        sprintf(c(" +- %.2g", " (called from %.2g)"), c(best$se, called_from(x$limit, best)))
       cat(sprintf("  largest change %.3g%s%s at %s %s%s\n", best$change, known[1], unit, best$part,
                   best$point, known[2]))
     }

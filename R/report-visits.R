@@ -102,11 +102,13 @@ unseen_warning <- function(x) {
 }
 
 missed_words <- function(x) {
-  se <- stats::median(surface_of(x)$se, na.rm = TRUE)
-  if (is.na(se) || is.na(x$limit)) return(NULL)
+  known <- surface_of(x)
+  known <- known[!is.na(known$score), ]
+  if (!nrow(known) || is.na(x$limit)) return(NULL)
   sprintf(paste("A point is called from a change of some %.2g %s; at a point that was chosen",
-                "beforehand, %.2g %s are detectable. Smaller changes are missed."), x$limit * se,
-          x$unit, 1.96 * se, x$unit)
+                "beforehand, %.2g %s are detectable. Smaller changes are missed."),
+          stats::median(called_from(x$limit, known)), x$unit, stats::median(known$detectable),
+          x$unit)
 }
 
 #' @param full Score from which on the colours are full, in both maps.

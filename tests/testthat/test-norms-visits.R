@@ -213,3 +213,11 @@ test_that("points that are missing are left out of picture and page, which say s
   expect_error(points_mesh(as.matrix(found$points[c("x", "y", "z")]), found$triangles),
                class = "crestline_error")
 })
+
+test_that("the change from which on a point is called has the score of the limit", {
+  points <- data.frame(se = c(0.5, 2, 1), df = c(4, 30, Inf))
+  change <- called_from(4, points)
+  expect_equal(normal_score(change / points$se, points$df), rep(4, 3))
+  expect_gt(change[1] / 0.5, 8)
+  expect_equal(change[3], 4)
+})
