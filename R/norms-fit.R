@@ -144,8 +144,9 @@ print.norm_settings <- function(x, ...) {
 #'     over the difference below which 90 % of all pairs are);
 #'   * `about`, `scheme`, `settings`.
 #' @section Errors: of class `crestline_error`: too few faces, a formula of another form, a column
-#'   that is missing, radii of `settings` in another unit than the meshes, a face whose errors are as
-#'   large as it is, or (with `share`) a rule of privacy that is not kept; the error gives the figures.
+#'   that is missing, radii of `settings` in another unit than the meshes, a face whose errors are
+#'   as large as it is, or (with `share`) a rule of privacy that is not kept; the error gives the
+#'   figures.
 #' @section Warnings: of class `crestline_norm_doubt`: measurements that some face lacks are left
 #'   out; points were estimated.
 #' @template glossary

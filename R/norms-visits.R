@@ -43,8 +43,8 @@
 #'     `se_growth` (its standard error, part of `se`), `change` (along the normal, outward positive,
 #'     without growth), `se`, `detectable` (from which change on a point that was chosen
 #'     beforehand has p < 0.05), all in the unit of the mesh; `df` (degrees of freedom of the errors
-#'     of [visit_errors()]; otherwise Inf), `score` (change over `se`, with `df` as the normal number
-#'     of the same probability), `called` (surface points: beyond the family-wise limit);
+#'     of [visit_errors()]; otherwise Inf), `score` (change over `se`, with `df` as the normal
+#'     number of the same probability), `called` (surface points: beyond the family-wise limit);
 #'   * `parts`: data frame with a row for each curve and patch: `level`, `part`, `change` (mean),
 #'     `se`, `detectable`, `p`, `p_holm`, `called`;
 #'   * `measurements`: data frame: `measurement`, `before`, `after` (both less the `bias` of
