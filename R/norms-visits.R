@@ -17,8 +17,9 @@
 #' that it is not in the errors. Points of curves that are not on the surface grow as the nearest
 #' surface point.
 #'
-#' The smallest detectable change of a point is \eqn{1.96 \sqrt{se_1^2 + se_2^2}}, less what laying
-#' the visits on each other takes up. Errors of a co-ordinate at distance d have the correlation
+#' The smallest detectable change of a point is \eqn{t \sqrt{se_1^2 + se_2^2}}, less what laying
+#' the visits on each other takes up. t is 1.96; for errors of [visit_errors()] it is Student's
+#' quantile. Errors of a co-ordinate at distance d have the correlation
 #' \eqn{share \exp(-d^2 / (2 range^2))}; along the normals it is smaller where these turn. Means of
 #' curves and patches have the standard error that follows. The family-wise limit over all surface
 #' points is the 95 % quantile of the largest standardised error. For independent errors it has a
