@@ -121,8 +121,8 @@
 #'       other tests, the share of the components used;
 #'     * `z`, `effect`, and `lower`, `upper` (95 % bootstrap interval of the effect); `effect` and
 #'       interval are NA for more than two groups;
-#'   * `points`: data frame with a row for each level and point, tested or not; lengths in the unit of
-#'     the meshes:
+#'   * `points`: data frame with a row for each level and point, tested or not; lengths in the unit
+#'     of the meshes:
 #'     * `level`, `point`, `x`, `y`, `z` (the mean, of mean size);
 #'     * `distance`: second mean less first along the normal, outward positive; NA without
 #'       triangles;

@@ -39,8 +39,8 @@ sums_in_files <- function(aligned, labels, counts, normals) {
 }
 
 #' The sums are not larger than memory
-#' @param groups,orders,drawn Numbers of groups that are summed, of regroupings, of bootstrap samples
-#'   (NULL: none).
+#' @param groups,orders,drawn Numbers of groups that are summed, of regroupings, of bootstrap
+#'   samples (NULL: none).
 #' @param copies How often the sums of the regroupings are held at once: those of the blocks before,
 #'   those of one more, and both added.
 #' @noRd

@@ -92,10 +92,10 @@
 #'   file's unit and order. A missing landmark has three NA. Points of two-dimensional files have
 #'   z = 0. Landmarks without a name are numbered. If the file has curves, the attribute `curves`
 #'   has them: a named list of n x 3 matrices, each with the attribute `closed`. A folder, or a file
-#'   of several specimens, gives a named list of such matrices. A file of one specimen gives a matrix
-#'   without the specimen's name. `write_landmarks()`: `file`,
-#'   invisibly. Errors are of class `crestline_landmark_error`; they name the file, the line and the
-#'   remedy.
+#'   of several specimens, gives a named list of such matrices. A file of one specimen gives a
+#'   matrix without the specimen's name. `write_landmarks()`: `file`,
+#'   invisibly. Errors are of class `crestline_landmark_error`; they name the file, the line and
+#'   the remedy.
 #' @template glossary
 #' @examples
 #' file <- tempfile(fileext = ".csv")

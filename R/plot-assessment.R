@@ -3,8 +3,8 @@
 #' Plot a face against its norms
 #'
 #' Draws the face of an assessment, coloured by one of its maps. Places beyond the limit of the map
-#' are outlined. The surface is grey where points are missing in the scan; it is made up there by its
-#' surroundings.
+#' are outlined. The surface is grey where points are missing in the scan; it is made up there by
+#' its surroundings.
 #'
 #' @param x An `assessment`, as of [assess()].
 #' @param what "map": z of each point; "scan": z of the scan, the radius that gives most; "healed":

@@ -26,9 +26,9 @@
 #'   here), `curvature`, `radius`, `view`, `band`. Settings of [widget_settings()]. `length_unit`:
 #'   name of the unit of lengths, such as "mm". `specimen`, the former name of `x`, still works.
 #' @return The path of the file, invisibly.
-#' @section Page of an assessment: The person, the norm and the error of the scan; the answers to six
-#'   questions ("differs by more than chance", "no difference shown", "could not be assessed"), with
-#'   the place, direction and height of what was found; pictures of the face, of both maps and of
+#' @section Page of an assessment: The person, the norm and the error of the scan; the answers to
+#'   six questions ("differs by more than chance", "no difference shown", "could not be assessed"),
+#'   with the place, direction and height of what was found; pictures of the face, of both maps and of
 #'   the expected shape; the places that do not fit, with 95 % intervals; growth charts of size and
 #'   of the measurements with the largest z; all measurements with z, centile and both errors; what
 #'   could not be assessed, by part; limits; where it came from. Missing places are holes in the

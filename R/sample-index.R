@@ -41,8 +41,8 @@ time_text <- function(info) sprintf("%.6f", as.numeric(info$mtime))
 #' @param kind First word of the files' names.
 #' @param columns Names of their columns, `file` the first and `end` the last.
 #' @param most Files of which one is made where there are more.
-#' @return Data frame of `columns`; attribute `unclear`: the lines of ambiguous files, which are left
-#'   out.
+#' @return Data frame of `columns`; attribute `unclear`: the lines of ambiguous files, which are
+#'   left out.
 #' @noRd
 read_index <- function(dir, kind = "index", columns = index_columns, most = 8) {
   parts <- list.files(dir, sprintf("^%s-.*[.]tsv$", kind), full.names = TRUE)

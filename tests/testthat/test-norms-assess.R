@@ -96,7 +96,8 @@ test_that("a lesion is found where it is, and healed; a plain face is left as it
   expect_equal(with$healed[!out, ], as.matrix(with$points[!out, c("x", "y", "z")]),
                ignore_attr = TRUE, tolerance = 1e-6)
   expect_match(paste(utils::capture.output(print(with)), collapse = "\n"), "found at .*height")
-  expect_match(finding_words(with$findings[1, ], "mm"), "radius [0-9.]+ mm, volume [0-9.e+]+ mm\\^3")
+  expect_match(finding_words(with$findings[1, ], "mm"),
+               "radius [0-9.]+ mm, volume [0-9.e+]+ mm\\^3")
 })
 
 test_that("a lesion on both sides is found on both, and healed there", {

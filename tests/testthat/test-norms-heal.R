@@ -5,7 +5,8 @@ test_that("squares of what is missed are those of each face by itself", {
   u <- with_seed(3, matrix(stats::rnorm(105 * 4), 105))
   inverse <- invert_field(field)
   disc <- c(4, 5, 12, 13)
-  found <- disc_squares(field, inverse, lapply(inverse$roots, chol2inv), apply_inverse(inverse, u), disc)
+  found <- disc_squares(field, inverse, lapply(inverse$roots, chol2inv), apply_inverse(inverse, u),
+                        disc)
   each <- sapply(1:4, function(i) {
     made <- given_the_rest(field, u[, i], rep(seq_len(35) %in% disc, 3))
     missed <- matrix((u[, i] - made$fit) * field$sd, ncol = 3)

@@ -2,7 +2,8 @@
 
 # Points on both sides of x = 0, and what a norm has of them.
 two_sided <- function(own = c(0.1, 0.3, 0.4), mirrored = c(0.2, 0.1), k = 40) {
-  half <- with_seed(1, cbind(stats::runif(k, 8, 40), stats::runif(k, 0, 40), stats::runif(k, 0, 10)))
+  half <- with_seed(1, cbind(stats::runif(k, 8, 40), stats::runif(k, 0, 40),
+                             stats::runif(k, 0, 10)))
   list(points = rbind(half, across_plane(half)), kernel = own, mirrored = mirrored,
        ranges = c(3, 12))
 }
