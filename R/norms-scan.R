@@ -40,13 +40,12 @@ scan_weights <- function(field, radii, inverse = invert_field(field)) {
     height <- Matrix::Matrix(bump(distance, radius), sparse = TRUE)
     lesion <- lapply(1:3, function(d) along[, d] * height)
     w <- do.call(rbind, Map(function(kernel, x) as.matrix(kernel %*% x), kernels, lesion))
-    lesion <- as.matrix(do.call(rbind, lesion))
-    list(lesion = lesion, w = w - inverse$solved %*%
-           (inverse$inner %*% crossprod(inverse$solved, lesion)))
+    lesion <- do.call(rbind, lesion)
+    w - inverse$solved %*% (inverse$inner %*% as.matrix(Matrix::crossprod(inverse$solved, lesion)))
   })
-  lapply(with_both_sides(each, field), function(one) {
-    one$w / rep(sqrt(pmax(colSums(one$w * one$lesion), 1e-300)), each = nrow(one$w))
-  })
+  scale <- scan_scale(field, radii, inverse)
+  each <- with_both_sides(each, field)
+  lapply(seq_along(each), function(q) each[[q]] / rep(scale[, q], each = nrow(each[[q]])))
 }
 
 #' By what the inverse's product with a bump is divided in these weights: k x bumps
