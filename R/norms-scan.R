@@ -64,7 +64,7 @@ scan_scale <- function(field, radii, inverse = invert_field(field)) {
   distance <- as.matrix(stats::dist(field$points))
   each <- lapply(radii, function(radius) {
     height <- bump(distance, radius)
-    list(height = height, solved = m %*% height)
+    list(height = height, solved = as.matrix(m %*% Matrix::Matrix(height, sparse = TRUE)))
   })
   vapply(with_both_sides(each, field), function(one) {
     sqrt(pmax(colSums(one$height * one$solved), 1e-300))
