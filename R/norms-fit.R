@@ -148,7 +148,8 @@ print.norm_settings <- function(x, ...) {
 #'   as large as it is, or (with `share`) a rule of privacy that is not kept; the error gives the
 #'   figures.
 #' @section Warnings: of class `crestline_norm_doubt`: measurements that some face lacks are left
-#'   out; points were estimated.
+#'   out; points were estimated; the points of some faces have no `se` and those of others have, so
+#'   that what errors add to measurements is not taken off all.
 #' @template glossary
 #' @template experimental
 #' @seealso [assess()], [write_norms()], [simulate_cohort()]

@@ -14,7 +14,7 @@ fit_parts <- function(data, rows, plan) {
   normal <- as.matrix(data$points[c("nx", "ny", "nz")])
   side <- data$points$side
   surface <- fit_field(data$y[rows, , drop = FALSE], points, normal, people, plan,
-                       if (any(side)) data$points$partner)
+                       if (!is.null(data$off)) data$points$partner)
   asymmetry <- if (!is.null(data$off)) {
     fit_field(data$off[rows, , drop = FALSE], points[side, ], normal[side, ], people, plan)
   }

@@ -132,7 +132,7 @@ norms_from_tables <- function(header, tables) {
          sd = unname(loadings[, 1]) * header$units$sd,
          vectors = unname(loadings[, -1, drop = FALSE]) * 1e-4,
          values = own$values, kernel = own$kernel, mirrored = own$mirrored, ranges = own$ranges,
-         partner = if (name == "surface" && any(points$side)) points$partner,
+         partner = if (name == "surface" && length(header$asymmetry)) points$partner,
          scan = list(radii = own$radii, both = own$both,
                      s = unname(as.matrix(tables[[paste0("scan-", name)]])), by_age = by_age,
                      size = own$age_splines, quantiles = own$quantiles),

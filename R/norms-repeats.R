@@ -131,9 +131,10 @@ prior_variance <- function(variance, df, fewest = 3) {
   half <- df[ok] / 2
   off <- log(variance[ok]) - digamma(half) + log(half)
   left <- stats::var(off) - mean(trigamma(half))
-  if (left <= 0) return(list(variance = exp(mean(off)), df = Inf))
-  # From many degrees of freedom to few: all that trigamma can be
-  prior <- exp(stats::uniroot(function(x) log(trigamma(exp(x))) - log(left), c(-20, 20))$root)
+  # Logarithms from few degrees of freedom to as many as make no difference
+  reach <- c(-20, 20)
+  if (left <= trigamma(exp(reach[2]))) return(list(variance = exp(mean(off)), df = Inf))
+  prior <- exp(stats::uniroot(function(x) log(trigamma(exp(x))) - log(left), reach)$root)
   list(variance = exp(mean(off) + digamma(prior) - log(prior)), df = 2 * prior)
 }
 

@@ -5,7 +5,8 @@
 #' @param draws A few do: the mean over all faces is exact, and a draw with its mirror image is
 #'   without errors of first order.
 #' @param some Number of shapes by which it is seen how errors go together.
-#' @return Matrix: shapes x measurements. Where the bias is unknown, nothing is taken off.
+#' @return Matrix: shapes x measurements. Where the bias is unknown, nothing is taken off; a warning
+#'   says so if it is known of other shapes.
 #' @noRd
 unbiased_values <- function(shapes, plan, draws = 2, some = 20) {
   unknown <- check_landmark_error(NULL, shapes[[1]]$scheme)
@@ -13,15 +14,32 @@ unbiased_values <- function(shapes, plan, draws = 2, some = 20) {
   # Neither choice nor draws may depend on the order of the faces
   ids <- vapply(shapes, `[[`, "", "id")
   together <- shared_errors(shapes[utils::head(order(ids, method = "radix"), some)])
-  value <- t(vapply(seq_along(shapes), function(i) {
+  each <- vapply(seq_along(shapes), function(i) {
     xyz <- places_of(shapes[[i]])
     value <- measure_places(plan, array(xyz, c(dim(xyz), 1)))[, 1]
     spread <- place_errors(shapes[[i]], unknown, together, rows)
     # Draws of one face must not go together with those of another
     bias <- drawn_errors(plan, xyz, value, spread, draws, id_seed(ids[i]))$bias
-    value - ifelse(is.na(bias), 0, bias)
-  }, numeric(length(plan))))
-  matrix(value, length(shapes), dimnames = list(NULL, names(plan)))
+    cbind(value, bias)
+  }, matrix(0, length(plan), 2))
+  known <- is.finite(matrix(each[, 2, ], length(plan)))
+  value <- matrix(each[, 1, ], length(plan))
+  warn_some_biased(known | is.na(value), ids)
+  matrix(t(value - ifelse(known, each[, 2, ], 0)), length(shapes),
+         dimnames = list(NULL, names(plan)))
+}
+
+#' Faces with errors of their points and faces without cannot be told apart by the norm
+#' @param known Measurements x shapes: whether the bias is known, or there is no value.
+#' @noRd
+warn_some_biased <- function(known, ids) {
+  mixed <- rowMeans(known) > 0 & rowMeans(known) < 1
+  if (!any(mixed)) return(invisible())
+  without <- ids[colSums(!known[mixed, , drop = FALSE]) > 0]
+  crestline_warn(sprintf("what errors add to measurements is not taken off %s: %s.",
+                         amount(length(without), "face"), shorten(without, 8)),
+                 "Their points have no `se`, those of others have. Make a norm of one kind.",
+                 stage = "norms", class = "crestline_norm_doubt")
 }
 
 #' A seed for a face by its name: its draws do not go together with those of another face, and are

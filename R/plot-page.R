@@ -28,11 +28,11 @@
 #' @return The path of the file, invisibly.
 #' @section Page of an assessment: The person, the norm and the error of the scan; the answers to
 #'   six questions ("differs by more than chance", "no difference shown", "could not be assessed"),
-#'   with the place, direction and height of what was found; pictures of the face, of both maps and of
-#'   the expected shape; the places that do not fit, with 95 % intervals; growth charts of size and
-#'   of the measurements with the largest z; all measurements with z, centile and both errors; what
-#'   could not be assessed, by part; limits; where it came from. Missing places are holes in the
-#'   pictures. Lengths are in mm for a norm of [face_scheme()]. The page gives no diagnosis.
+#'   with the place, direction and height of what was found; pictures of the face, of both maps and
+#'   of the expected shape; the places that do not fit, with 95 % intervals; growth charts of size
+#'   and of the measurements with the largest z; all measurements with z, centile and both errors;
+#'   what could not be assessed, by part; limits; where it came from. Missing places are holes in
+#'   the pictures. Lengths are in mm for a norm of [face_scheme()]. The page gives no diagnosis.
 #' @section Page of two visits: What changed, where and by how much, and from what size on a change
 #'   could have been seen; what could not be compared, by part; the change along the normals as a
 #'   picture, whose colours are full from at least six standard errors on; all curves, patches and

@@ -2,7 +2,7 @@
 
 #' @exportS3Method
 page_of.assessment <- function(x, file, title) {
-  if (is.null(title)) title <- paste(x$id, "against the norms of its age and sex")
+  if (is.null(title)) title <- paste(x$id, "against the norms of its", norm_of(x))
   tags <- htmltools::tags
   seen <- x
   seen$points[!x$points$assessed, c("x", "y", "z")] <- NA
@@ -24,7 +24,7 @@ assessment_facts <- function(x) {
     sprintf(" (few: the norm's own error of z is %.1f, median)", stats::median(x$points$se_norm,
                                                                               na.rm = TRUE))
   }
-  fact_list(c(Person = x$id, `Sex and age` = who,
+  fact_list(c(Person = x$id, stats::setNames(who, if (x$sex == "all") "Age" else "Sex and age"),
               Norm = sprintf("%s%s", if (length(x$norms$name)) paste0(x$norms$name, ", ") else "",
                              amount(x$norms$n, "face")),
               `Faces that count at this age` = paste0(sprintf("%.0f", x$effective), few),
@@ -162,7 +162,7 @@ assessment_values <- function(x) {
   tags$section(
     tags$h2("Measurements"), block(!component),
     tags$p(class = "note", "Size: root of the summed squared distances of all points from their",
-           "centre. Centile: share of people of this age and sex with a smaller value.",
+           sprintf("centre. Centile: share of people of this %s with a smaller value.", norm_of(x)),
            "z: the same as standard deviations from the mean, bold beyond 2. The two errors are",
            "standard errors of z, of this scan and of the norm.",
            if (wider) "The answers above use \"z, wider\", which allows for this scan's error.",

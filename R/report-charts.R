@@ -19,7 +19,8 @@ assessment_charts <- function(x, most = 4) {
   tags$section(
     tags$h2("Growth charts"), tags$div(class = "charts", figures),
     tags$p(class = "note",
-           "Curves: centiles 3, 15, 50, 85, 97 of this sex by age in years. Point and bar: this",
+           sprintf("Curves: centiles 3, 15, 50, 85, 97%s by age in years. Point and bar: this",
+                   if (x$sex == "all") "" else " of this sex"),
            "person, and the 95 % interval of the scan's error.",
            if (nrow(values) > most) "Shown: size and the measurements that are most unusual.")
   )

@@ -1,5 +1,8 @@
 # Pictures of a face for a page: maps in colour whose signs can also be read in black and white.
 
+# What the people of the norm share with this one: a norm may be of both sexes together.
+norm_of <- function(x) if (x$sex == "all") "age" else "age and sex"
+
 #' Four pictures beside each other: the face, both maps, the healed face; asymmetry where it differs
 #' @param span z from which on the colours are full.
 #' @noRd
@@ -14,8 +17,8 @@ assessment_maps <- function(x, span = 6) {
   asymmetric <- any(x$verdicts$verdict[x$verdicts$family == "asymmetry"] == "real")
   cards <- list(
     card("The face", " at the points that were measured.", xyz),
-    card("Each place against the norm", " of this age and sex.", xyz, points$z_map, span,
-         x$limits[["map"]]),
+    card("Each place against the norm", sprintf(" of this %s.", norm_of(x)), xyz, points$z_map,
+         span, x$limits[["map"]]),
     card("Does each place fit the rest of the face?",
          " This finds small differences that the other map cannot see.", xyz, points$z_scan, span,
          x$limits[["scan"]]),
@@ -24,7 +27,7 @@ assessment_maps <- function(x, span = 6) {
     } else " is the face itself, as nothing was found that does not fit the rest.", x$healed,
     ring = points$healed_sd > 0 & points$assessed),
     if (asymmetric) card("Asymmetry against the norm's",
-                         " on one side. Outward: further outward than on the other side.", xyz,
+                         " on one side. Outward: further out against the other than usual.", xyz,
                          points$z_asymmetry, span, x$limits[["asymmetry"]])
   )
   tags$section(tags$h2("Pictures"), tags$div(class = "maps", Filter(Negate(is.null), cards)),

@@ -96,18 +96,6 @@ test_that("measurements() gives what errors add, in any pose", {
   expect_true(all(is.na(measurements(bare, ball_measurements())$bias)))
 })
 
-test_that("what is taken off a face does not depend on the others, nor on their order", {
-  cohort <- small_cohort(20, settings = cohort_settings(noise = 1))
-  shapes <- unname(cohort$sample$shapes)
-  plan <- measurement_plan(ball_measurements(), cohort$sample$template$scheme)
-  all <- unbiased_values(shapes, plan)
-  expect_equal(unbiased_values(shapes[20:1], plan), all[20:1, ])
-  expect_equal(unbiased_values(shapes[c(9, 4)], plan), all[c(9, 4), ])
-  # Draws of faces do not go together
-  expect_false(any(duplicated(vapply(c("a", "b", "A", "\u00e4"), id_seed, 0L))))
-  expect_identical(id_seed(iconv("\u00e4", "UTF-8", "latin1")), id_seed("\u00e4"))
-})
-
 test_that("a shape without points has no measurements, and that is said", {
   shape <- small_patient()
   shape$points[c("x", "y", "z")] <- NA_real_

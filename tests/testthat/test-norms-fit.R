@@ -207,3 +207,16 @@ test_that("what cannot be a norm is refused by name", {
     c("size of person 03", "not larger than what its errors add")
   )
 })
+
+test_that("without an asymmetric part no side tells of the other", {
+  cohort <- small_cohort(60)
+  made <- norm_data(cohort$sample, NULL, 1e-3)
+  made$people <- norm_people(~ s(age), cohort$data, names(cohort$sample))
+  plan <- norm_plan(small_settings(), made$people)
+  expect_identical(fit_parts(made, 1:60, plan)$surface$partner, made$points$partner)
+  made$off <- NULL
+  parts <- fit_parts(made, 1:60, plan)
+  expect_null(parts$surface$partner)
+  expect_equal(parts$surface$mirrored, c(0, 0))
+  expect_null(parts$asymmetry)
+})

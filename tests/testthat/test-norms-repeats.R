@@ -71,6 +71,10 @@ test_that("variances of few repeats are drawn together, as much as they are alik
   expect_equal(found$df, 10, tolerance = 0.35)
   expect_equal(found$variance, 0.04, tolerance = 0.1)
   expect_identical(prior_variance(alike[1:2], df[1:2]), list(variance = 0, df = 0))
+  # Differences that are hardly more than chance need no number that no computer has
+  half <- rep(3, 3)
+  off <- c(-1, 0, 1) * sqrt(mean(trigamma(half)) + 1e-12)
+  expect_identical(prior_variance(exp(off + digamma(half) - log(half)), 2 * half)$df, Inf)
   few <- repeated(3, noise = 0.3)
   surface <- few$points[few$points$level == "surface", ]
   expect_true(all(surface$df > 3))

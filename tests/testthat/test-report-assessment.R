@@ -23,6 +23,16 @@ small_assessment <- local({
   }
 })
 
+test_that("a norm of both sexes together is not called one of a sex", {
+  one <- small_assessment()
+  expect_match(page_text(one), "norms of its age and sex", fixed = TRUE)
+  one$sex <- "all"
+  html <- gsub("base64,[^\"]*", "", page_text(one))
+  expect_match(html, "norms of its age<", fixed = TRUE)
+  expect_match(html, "people of this age with a smaller value", fixed = TRUE)
+  expect_false(grepl("sex", html, ignore.case = TRUE))
+})
+
 test_that("the page is one file without scripts, and says what was found and what it is not", {
   html <- page_text(small_assessment())
   expect_false(grepl("https?://|<link|<script|src=\"(?!data:)|@import", html, perl = TRUE))
